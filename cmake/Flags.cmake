@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# One target that carries the compiler flags of everything in this tree.
+add_library(dynascope_flags INTERFACE)
+target_include_directories(dynascope_flags INTERFACE ${PROJECT_SOURCE_DIR})
+target_compile_definitions(dynascope_flags INTERFACE
+    QT_NO_CAST_FROM_ASCII QT_NO_CAST_TO_ASCII QT_NO_URL_CAST_FROM_STRING QT_NO_CAST_FROM_BYTEARRAY
+    QT_NO_NARROWING_CONVERSIONS_IN_CONNECT QT_NO_FOREACH QT_NO_JAVA_STYLE_ITERATORS
+    QT_DISABLE_DEPRECATED_BEFORE=0x060400)
+target_compile_options(dynascope_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+    -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wimplicit-fallthrough)
+if(DYNASCOPE_WERROR)
+    target_compile_options(dynascope_flags INTERFACE -Werror)
+endif()
+if(DYNASCOPE_SANITIZE)
+    target_compile_options(dynascope_flags INTERFACE -fsanitize=${DYNASCOPE_SANITIZE} -fno-omit-frame-pointer
+        -fno-sanitize-recover=all)
+    target_link_options(dynascope_flags INTERFACE -fsanitize=${DYNASCOPE_SANITIZE})
+endif()

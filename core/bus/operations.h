@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/bus.h"
+
+/// One instruction each, as a function of Bus. Bus thread. Errors are ready to be shown: they name the device and say
+/// what was seen.
+namespace dynascope {
+
+struct PingReply {
+    std::uint8_t id = 0;
+    std::uint16_t modelNumber = 0;
+    std::uint8_t firmware = 0;
+    bool alert = false;
+};
+
+struct ReadReply {
+    Bytes data;
+    bool alert = false;
+    LineTime at{};
+};
+
+Result<PingReply> ping(Bus &bus, std::uint8_t id);
+Result<ReadReply> read(Bus &bus, const Span &span);
+Result<void> write(Bus &bus, const SpanData &data);
+Result<void> regWrite(Bus &bus, const SpanData &data);
+Result<void> action(Bus &bus, std::uint8_t id);
+Result<void> factoryReset(Bus &bus, std::uint8_t id, ResetOption option);
+Result<void> reboot(Bus &bus, std::uint8_t id);
+Result<void> clear(Bus &bus, std::uint8_t id, ClearOption option);
+Result<void> backup(Bus &bus, std::uint8_t id, BackupOption option);
+
+/// One entry per span, in their order. Same address and length: Sync Read, else Bulk Read; fast where every device can;
+/// split where a packet would grow past 1024 bytes. A single span is a Read.
+Result<std::vector<Result<ReadReply>>> readMany(Bus &bus, std::span<const Span> spans);
+/// Sync Write or Bulk Write; nobody answers.
+Result<void> writeMany(Bus &bus, std::span<const SpanData> writes);
+
+/// Writes one register and reads it back until it shows (EEPROM takes a while). The value read is returned; NotConfirmed
+/// where it differs in the end.
+Result<Bytes> writeVerified(Bus &bus, const SpanData &data);
+
+/// A device as a scan saw it.
+struct Found {
+    std::uint8_t id = 0;
+    int baudRate = 57600;
+    std::uint16_t modelNumber = 0;
+    std::uint8_t firmware = 0;
+    bool alert = false;
+    QString doubt; ///< empty, or why this may not be one healthy device ("two devices seem to share this ID")
+
+    friend bool operator==(const Found &, const Found &) = default;
+};
+
+/// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. `found` is called as they
+/// come. Answers beyond [firstId, lastId] are dropped.
+Result<std::vector<Found>> scanBaud(Bus &bus, int firstId, int lastId, const std::function<void(const Found &)> &found);
+
+} // namespace dynascope

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/bus.h"
+
+namespace dynascope {
+
+/// A stretch of registers to be read again and again.
+struct PollSpan {
+    quint32 device = 0; ///< the session's number of the device; the bus only hands it back
+    Span span;
+    std::chrono::milliseconds interval{0}; ///< 0: every cycle
+
+    friend bool operator==(const PollSpan &, const PollSpan &) = default;
+};
+
+struct PollPlan {
+    std::vector<PollSpan> spans;
+    std::vector<Traits> traits; ///< of every device in `spans`
+
+    friend bool operator==(const PollPlan &, const PollPlan &) = default;
+};
+
+/// What one span brought in one cycle.
+struct PollValue {
+    quint32 device = 0;
+    std::uint16_t address = 0;
+    Bytes data;         ///< empty where it failed
+    Error error;        ///< where data is empty
+    bool alert = false;
+    LineTime at{};      ///< when the reply had come, or when waiting for it ended
+};
+
+/// What one poll cycle brought, in the order of the plan.
+struct Batch {
+    quint64 cycle = 0;
+    LineTime begin{}, end{};
+    bool fullRate = false; ///< the cycle read the interval-0 spans: counts for the achieved rate
+    std::vector<PollValue> values;
+};
+
+/// The requests of one cycle for these spans, cheapest first choice: fast sync, sync, bulk, single. Pure.
+/// `indices[i]` are the spans, by position in the argument, that request i answers, in reply order.
+struct PlannedExchange {
+    Request request;
+    std::vector<std::size_t> indices;
+};
+std::vector<PlannedExchange> planExchanges(std::span<const PollSpan> spans, std::span<const Traits> traits);
+
+} // namespace dynascope

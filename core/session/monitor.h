@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/history.h"
+#include "core/session/session.h"
+
+#include <map>
+#include <set>
+
+namespace dynascope {
+
+/// A field of a device that is read all the time.
+struct Watch {
+    DeviceKey device = 0;
+    int field = 0; ///< index in its table
+
+    friend auto operator<=>(const Watch &, const Watch &) = default;
+};
+
+/// Decides what is polled and keeps the histories of what is watched. GUI thread.
+///
+/// Watched fields at full rate; RAM of the selected device at 10 Hz; Torque Enable, Hardware Error Status, temperature
+/// and voltage of all devices at 1 Hz.
+class Monitor : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Monitor(Session &session, QObject *parent = nullptr);
+
+    void watch(const Watch &watch);
+    void unwatch(const Watch &watch); ///< its history stays until clear()
+    bool isWatched(const Watch &watch) const { return m_watches.contains(watch); }
+    const std::set<Watch> &watches() const { return m_watches; }
+    void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
+
+    /// nullptr until its first sample. Stays valid until unwatch() or the device goes.
+    const History *history(const Watch &watch) const;
+    void clear(); ///< all histories
+
+    bool isPaused() const { return m_paused; }
+    void setPaused(bool paused); ///< no polling at all
+
+signals:
+    void watchesChanged();
+
+private:
+    void replan();
+
+    Session &m_session;
+    std::set<Watch> m_watches;
+    std::map<Watch, History> m_histories;
+    std::vector<DeviceKey> m_selected;
+    bool m_paused = false;
+};
+
+} // namespace dynascope

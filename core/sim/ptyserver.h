@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/sim/simulatedbus.h"
+
+#include <QString>
+
+#include <functional>
+#include <memory>
+
+namespace dynascope::sim {
+
+/// Serves a simulated bus on a pseudo-terminal from a thread of its own, paced by the wall clock, so that any DYNAMIXEL
+/// program opens it as its serial port. Created and destroyed on one thread; post() from any.
+class PtyServer
+{
+public:
+    /// The bus belongs to the server's thread from now on. `link`: also a symbolic link there, removed at the end; an
+    /// existing one is replaced only if it is a symbolic link. `onTick` runs on that thread about every 10 ms.
+    static Result<std::unique_ptr<PtyServer>> start(std::unique_ptr<SimulatedBus> bus, const QString &link = {},
+                                                    std::function<void(SimulatedBus &, LineTime)> onTick = {});
+    ~PtyServer();
+
+    QString path() const; ///< of the terminal a client opens: "/dev/pts/7"
+
+    /// Runs `change` on the server's thread, between packets.
+    void post(std::function<void(SimulatedBus &, LineTime now)> change);
+    /// As post(), and waits for it. Not from the server's own thread. For tests and control channels.
+    void call(std::function<void(SimulatedBus &, LineTime now)> change);
+
+private:
+    PtyServer();
+    class Worker;
+    std::unique_ptr<Worker> m_worker;
+};
+
+} // namespace dynascope::sim

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bytes.h"
+#include "core/table/field.h"
+
+#include <functional>
+#include <memory>
+#include <span>
+
+namespace dynascope {
+
+/// One code of the Baud Rate register.
+struct BaudCode {
+    std::uint8_t code = 0;
+    int rate = 0; ///< bits per second
+
+    friend bool operator==(const BaudCode &, const BaudCode &) = default;
+};
+
+/// The control table of one model at one range of firmware. Immutable; shared between threads.
+class ControlTable
+{
+public:
+    /// What a table is made of; see catalog.h for where it comes from.
+    struct Description {
+        std::uint16_t modelNumber = 0;
+        QString model;            ///< "XM430-W350"
+        QString series;           ///< "X"
+        int firmwareFrom = 0;
+        int firmwareTo = 255;
+        int resolution = 4096;    ///< pulses per revolution
+        std::vector<int> operatingModes;
+        std::vector<BaudCode> baudCodes;
+        int fastReadsFrom = -1;   ///< first firmware with Fast Sync/Bulk Read; −1: never
+        int backupFrom = -1;      ///< first firmware with Control Table Backup; −1: never
+        QString manualPage;       ///< URL
+        std::vector<Field> fields; ///< by address, no overlaps
+    };
+
+    explicit ControlTable(Description description);
+
+    const Description &description() const { return m_description; }
+    std::uint16_t modelNumber() const { return m_description.modelNumber; }
+    const QString &model() const { return m_description.model; }
+    int resolution() const { return m_description.resolution; }
+    std::span<const Field> fields() const { return m_description.fields; }
+    int size() const { return m_size; } ///< one past the last address
+
+    /// By the manufacturer's name, ignoring case, spaces, '-' and '_'; −1 where there is none.
+    int indexOf(QStringView name) const;
+    const Field *find(QStringView name) const;
+    /// The field that begins at this address; nullptr where none does.
+    const Field *at(int address) const;
+    int indexOf(const Field *field) const;
+
+    std::optional<int> baudRate(int code) const;
+    std::optional<int> baudCode(int rate) const;
+    bool hasFastReads(int firmware) const;
+    bool hasBackup(int firmware) const;
+
+private:
+    Description m_description;
+    std::vector<std::pair<QString, int>> m_byName; ///< normalised, sorted
+    int m_size = 0;
+};
+
+using ControlTablePtr = std::shared_ptr<const ControlTable>;
+
+/// Lower case without spaces, '-' and '_': how names are compared.
+QString normalizedName(QStringView name);
+
+/// Reads another register's present value; nothing where it isn't known.
+using RegisterLookup = std::function<std::optional<std::int64_t>(QStringView name)>;
+
+/// What a field means right now: its range with registers resolved, its unit with alternates applied.
+struct EffectiveField {
+    std::optional<std::int64_t> minimum, maximum; ///< nothing: unlimited but for the size
+    Unit unit = Unit::None;
+    double scale = 1.0;
+};
+EffectiveField effective(const Field &field, const RegisterLookup &lookup);
+
+/// What fits the register's size and sign at all.
+std::int64_t smallestRaw(const Field &field);
+std::int64_t largestRaw(const Field &field);
+
+std::int64_t rawFromBytes(const Field &field, ByteView bytes);
+Bytes bytesFromRaw(const Field &field, std::int64_t raw);
+
+} // namespace dynascope

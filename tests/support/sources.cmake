@@ -1,0 +1,1 @@
+target_sources(dynascope_test_support PRIVATE support/oracle.cpp support/oracle.h)

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QColor>
+#include <QPalette>
+
+class QApplication;
+
+namespace dynascope {
+
+enum class ColorScheme { System, Light, Dark };
+
+/// Colours with a meaning. Never the only carrier of it.
+struct ThemeColors {
+    bool dark = false;
+    QColor accent, good, warning, bad, dimmed, grid, changed; ///< `changed`: background of a value that just changed
+    QColor border, header;
+};
+
+/// Fusion with our own light or dark palette. The system's own choice is read once, at the first call.
+void applyTheme(QApplication &application, ColorScheme scheme);
+QPalette palette(ColorScheme scheme);
+/// Those that go with a palette made here. Cheap: may be called while painting.
+const ThemeColors &colors(const QPalette &palette);
+
+/// Okabe-Ito first; `index` is the trace's own, so a trace keeps its colour.
+QColor traceColor(int index, const QPalette &palette);
+
+/// The UI font if its ten digits are of one width, else the system's fixed font at the same size.
+QFont numberFont(const QFont &base);
+
+} // namespace dynascope

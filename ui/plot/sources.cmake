@@ -1,0 +1,2 @@
+target_sources(dynascope_ui PRIVATE
+)
