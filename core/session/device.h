@@ -43,10 +43,11 @@ public:
         Rebooting,
     };
 
-    Device(DeviceKey key, LineSession &line, ControlTablePtr table, const Found &found);
+    /// `line` owns it; none in tests of what only shows a device.
+    Device(DeviceKey key, LineSession *line, ControlTablePtr table, const Found &found);
 
     DeviceKey key() const { return m_key; }
-    LineSession &line() const { return m_line; }
+    LineSession *line() const { return m_line; }
     const ControlTable &table() const { return *m_table; } ///< of an unknown model: one without fields
     bool isKnownModel() const { return !m_table->fields().empty(); }
     QString model() const { return m_table->model(); }
@@ -88,7 +89,7 @@ signals:
 
 private:
     DeviceKey m_key;
-    LineSession &m_line;
+    LineSession *m_line;
     ControlTablePtr m_table;
     Found m_found;
     QString m_nickname;
