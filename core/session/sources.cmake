@@ -1,2 +1,3 @@
 target_sources(dynascope_core PRIVATE
+    session/device.cpp session/device.h
 )
