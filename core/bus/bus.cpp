@@ -176,10 +176,8 @@ Result<void> Bus::prepare()
     }
     if (!m_unsettled)
         return {};
-    if (Result<void> quiet = settle(std::max<LineTime>(1500us, 10 * m_line.byteTime()), SettleLimit); !quiet)
+    if (Result<void> quiet = settleFor(std::max<LineTime>(1500us, 10 * m_line.byteTime()), SettleLimit, true); !quiet)
         return quiet;
-    if (isStopped())
-        return tl::unexpected(messages::stopped());
     m_unsettled = false;
     return {};
 }
@@ -303,11 +301,13 @@ void Bus::count(const ExchangeResult &result)
     }
 }
 
-Result<void> Bus::settle(LineTime quiet, LineTime limit)
+Result<void> Bus::settleFor(LineTime quiet, LineTime limit, bool heedStop)
 {
     const LineTime end = m_line.now() + limit;
     LineTime silentSince = m_line.now();
     while (m_line.now() < end && m_line.now() - silentSince < quiet) {
+        if (heedStop && isStopped())
+            return tl::unexpected(messages::stopped());
         if (Result<void> read = receive(std::min({end, silentSince + quiet, m_line.now() + timing::Slice})); !read)
             return read;
         if (m_received.empty())

@@ -41,7 +41,10 @@ public:
     Result<void> sendOnly(ByteView packet);
 
     /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
-    Result<void> settle(LineTime quiet, LineTime limit);
+    Result<void> settle(LineTime quiet, LineTime limit) { return settleFor(quiet, limit, false); }
+
+    /// Lets time pass; what comes meanwhile is discarded.
+    Result<void> wait(LineTime duration) { return waitUntil(m_line.now() + duration, true); }
 
     /// Drain, set, discard, two byte times. Error: the old rate stays.
     Result<void> setBaudRate(int bitsPerSecond);
@@ -51,6 +54,9 @@ public:
 
     /// A broadcast Ping, which takes up to 0.8 s, ends with Cancelled once this is set. Not owned; may be null.
     void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
+
+    /// An idle line is looked at now and then, or nobody would notice that it was unplugged.
+    void look() { (void)prepare(); }
 
     /// Why the line is gone, once a call to it failed with PortLost.
     const std::optional<Error> &lost() const { return m_lost; }
@@ -69,6 +75,7 @@ private:
     Result<bool> fence(std::uint8_t id, Error &silence);
     Result<void> send(ByteView packet);
     Result<void> listen(Collector &collector, const Request &request, Waiting &waiting);
+    Result<void> settleFor(LineTime quiet, LineTime limit, bool heedStop);
     Result<void> waitUntil(LineTime time, bool heedStop);
     Result<void> receive(LineTime until);
     LineTime deadline(const Collector &collector, const Request &request, const Waiting &waiting) const;

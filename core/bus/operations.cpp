@@ -141,7 +141,7 @@ Result<Bytes> writeVerified(Bus &bus, const SpanData &data)
     Result<ReadReply> shown;
     for (int look = 0; look < Looks; ++look) {
         if (look > 0) {
-            if (Result<void> waited = bus.settle(20ms, 20ms); !waited)
+            if (Result<void> waited = bus.wait(20ms); !waited)
                 return tl::unexpected(waited.error());
         }
         shown = read(bus, {data.id, data.address, length});
