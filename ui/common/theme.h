@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QColor>
+#include <QFont>
 #include <QPalette>
 
 class QApplication;
@@ -25,6 +26,9 @@ const ThemeColors &colors(const QPalette &palette);
 
 /// Okabe-Ito first; `index` is the trace's own, so a trace keeps its colour.
 QColor traceColor(int index, const QPalette &palette);
+
+/// WCAG 2: 1 (the same) to 21 (black on white).
+double contrastRatio(const QColor &one, const QColor &other);
 
 /// The UI font if its ten digits are of one width, else the system's fixed font at the same size.
 QFont numberFont(const QFont &base);
