@@ -1,58 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/line.h"
+#include "core/bus/bus_values.h"
 #include "core/bus/traits.h"
-#include "core/protocol/requests.h"
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 namespace dynascope {
 
-/// One device's answer.
-struct Reply {
-    std::uint8_t id = 0;
-    DeviceError error = DeviceError::None;
-    bool alert = false; ///< Hardware Error Status is latched; never itself a failure
-    Bytes data;
-    LineTime at{}; ///< when its last byte had come
-};
-
-/// What the line did during one exchange, for messages and statistics.
-struct Observations {
-    std::size_t bytesReceived = 0;
-    std::size_t noiseBytes = 0;
-    int damagedPackets = 0;
-    int strayPackets = 0;            ///< valid, but not asked for
-    std::vector<std::uint8_t> strayIds;
-    bool echo = false;               ///< the request itself came back first
-    int retries = 0;
-    LineTime roundTrip{};            ///< write to last reply
-};
-
-/// Everything a request brought. One entry per expected reply, in the order of the request; with a broadcast Ping one
-/// per device that answered.
-struct ExchangeResult {
-    std::vector<Result<Reply>> replies; ///< errors name the device and what was seen
-    Observations seen;
-};
-
-/// Counts since the line was opened.
-struct BusStatistics {
-    quint64 exchanges = 0;
-    quint64 replies = 0;
-    quint64 timeouts = 0;    ///< nothing received, no header, cut off
-    quint64 crcErrors = 0;
-    quint64 lengthErrors = 0;
-    quint64 strays = 0;
-    quint64 retries = 0;
-    quint64 bytesSent = 0;
-    quint64 bytesReceived = 0;
-    LineTime busy{};         ///< time spent inside exchanges
-
-    friend bool operator==(const BusStatistics &, const BusStatistics &) = default;
-};
+class Collector;
 
 /// One exchange after the other on one line: sends a request, waits until its deadline, takes the answer apart.
 /// Belongs to the thread of its line; blocking. Deadlines follow the model of reference "Time": bytes to leave, return
@@ -82,8 +40,11 @@ public:
     /// Sends without waiting for anything but the bytes to leave. Looks at no stop flag: this is what STOP uses.
     Result<void> sendOnly(ByteView packet);
 
-    /// Waits until `quiet` long nothing has come, and discards it; at most `limit`.
-    Result<void> settle(LineTime quiet, LineTime limit);
+    /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
+    Result<void> settle(LineTime quiet, LineTime limit) { return settleFor(quiet, limit, false); }
+
+    /// Lets time pass; what comes meanwhile is discarded.
+    Result<void> wait(LineTime duration) { return waitUntil(m_line.now() + duration, true); }
 
     /// Drain, set, discard, two byte times. Error: the old rate stays.
     Result<void> setBaudRate(int bitsPerSecond);
@@ -91,17 +52,50 @@ public:
     bool isStopped() const { return m_stop && m_stop->load(std::memory_order_acquire); }
     const BusStatistics &statistics() const { return m_statistics; }
 
+    /// A broadcast Ping, which takes up to 0.8 s, ends with Cancelled once this is set. Not owned; may be null.
+    void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
+
+    /// An idle line is looked at now and then, or nobody would notice that it was unplugged.
+    void look() { (void)prepare(); }
+
+    /// Why the line is gone, once a call to it failed with PortLost.
+    const std::optional<Error> &lost() const { return m_lost; }
+
     /// Called with each packet as it goes out or comes in, for the traffic view and `dxl -v`.
     enum class Direction { Sent, Received };
     using Tap = std::function<void(Direction, LineTime, ByteView)>;
     void setTap(Tap tap) { m_tap = std::move(tap); }
 
 private:
+    struct Waiting;
+
+    Result<ExchangeResult> attempt(const Request &request);
+    Result<ExchangeResult> perform(const Request &request, Waiting &waiting);
+    Result<void> prepare();
+    Result<bool> fence(std::uint8_t id, Error &silence);
+    Result<void> send(ByteView packet);
+    Result<void> listen(Collector &collector, const Request &request, Waiting &waiting);
+    Result<void> settleFor(LineTime quiet, LineTime limit, bool heedStop);
+    Result<void> waitUntil(LineTime time, bool heedStop);
+    Result<void> receive(LineTime until);
+    LineTime deadline(const Collector &collector, const Request &request, const Waiting &waiting) const;
+    void explainSilence(const Request &request, ExchangeResult &result) const;
+    void count(const ExchangeResult &result);
+    Result<void> keep(Result<void> result);
+
     Line &m_line;
     const std::atomic<bool> *m_stop;
+    const std::atomic<bool> *m_cancel = nullptr;
     std::vector<Traits> m_traits;
     BusStatistics m_statistics;
     Tap m_tap;
+    std::optional<Error> m_lost;
+    Bytes m_received;         ///< what the last read brought
+    Bytes m_lastSent;
+    LineTime m_sentBy{};      ///< when the last byte of the last packet has left
+    bool m_echoes = false;    ///< the adapter returns what is sent
+    bool m_unsettled = false; ///< something is or may be coming that belongs to an earlier request
+    bool m_doubtful = false;  ///< an answer was missed and may still come: only an answered Ping proves that it won't
 };
 
 } // namespace dynascope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/bus/jobcontext.h"
 #include "core/bus/linefactory.h"
 #include "core/bus/poll_values.h"
 #include "core/bus/stop_values.h"
@@ -8,47 +9,12 @@
 #include <QObject>
 #include <QPointer>
 
-#include <functional>
 #include <memory>
 
 namespace dynascope {
 
-enum class Priority { Scan, Normal, Click }; ///< a waiting job of higher priority runs at the next checkpoint
-
-/// What a job may use. Bus thread, only while the job runs.
-class JobContext
-{
-public:
-    virtual ~JobContext() = default;
-
-    virtual Bus &bus() = 0;
-
-    /// Between exchanges: lets waiting jobs of higher priority run, puts this job's baud rate back, and says whether to go
-    /// on: Cancelled, Stopped, PortLost.
-    virtual Result<void> checkpoint() = 0;
-
-    /// Runs `note` on the GUI thread if the job's context object still lives there. For progress.
-    virtual void post(std::function<void()> note) = 0;
-
-    /// While one is held, only STOP gets in: between the first and last write of an ID or baud change.
-    class Exclusive
-    {
-    public:
-        explicit Exclusive(JobContext &context) : m_context(context) { m_context.enterExclusive(); }
-        ~Exclusive() { m_context.leaveExclusive(); }
-        Exclusive(const Exclusive &) = delete;
-        Exclusive &operator=(const Exclusive &) = delete;
-
-    private:
-        JobContext &m_context;
-    };
-
-protected:
-    virtual void enterExclusive() = 0;
-    virtual void leaveExclusive() = 0;
-};
-
-using JobId = quint64;
+class BusWorker;
+class Outbox;
 
 /// An open line's thread: owns Line, Bus and Poller, runs jobs, polls in between. Lives on the GUI thread; its signals
 /// come there. Closing waits for the exchange in flight only.
@@ -61,15 +27,20 @@ public:
 
     /// Opens the line on its new thread; stateChanged() tells how that went. `factory` outlives this.
     BusThread(LineFactory &factory, QString name, int baudRate, QObject *parent = nullptr);
+    /// Delivers nothing any more: close() first where a job's end matters.
     ~BusThread() override;
 
-    QString name() const;
-    State state() const;
-    Error error() const;    ///< why Lost or Closed
-    int baudRate() const;   ///< the working baud rate
+    /// Waits for the exchange in flight (an exclusive scope: for its end), closes the line and delivers Cancelled for what
+    /// was queued, before it returns.
+    void close();
+
+    QString name() const { return m_name; }
+    State state() const { return m_state; }
+    Error error() const { return m_error; } ///< why Lost or Closed
+    int baudRate() const;                   ///< the working baud rate
 
     /// Queues `job` for the bus thread and delivers its value to `done` on the GUI thread, unless `context` has died by
-    /// then. Exactly one delivery: the value, the job's error, Cancelled, Stopped or PortLost.
+    /// then (a null context never does). Exactly one delivery: the value, the job's error, Cancelled, Stopped or PortLost.
     template <typename T>
     JobId run(Priority priority, QObject *context, std::function<Result<T>(JobContext &)> job,
               std::function<void(Result<T>)> done)
@@ -95,8 +66,8 @@ public:
     /// @{
     void setStopTargets(std::vector<StopTarget> targets); ///< those packets are made now
     void stop();                                          ///< returns at once
-    bool isStopped() const;
-    void release();                                       ///< a person did
+    bool isStopped() const { return m_stopped; }
+    void release() { m_stopped = false; }                 ///< a person did
     /// @}
 
 signals:
@@ -106,12 +77,22 @@ signals:
     void stopFinished(const std::vector<dynascope::StopOutcome> &outcomes);
 
 private:
-    /// With a context: run, and return the delivery. Without: the delivery of `refusal`.
-    using Job = std::function<std::function<void()>(JobContext *, const Error &refusal)>;
-    JobId enqueue(Priority priority, QObject *context, Job job);
+    JobId enqueue(Priority priority, QObject *context, ErasedJob job);
 
-    class Worker;
-    std::unique_ptr<Worker> m_worker;
+    friend class BusWorker;
+    void setState(State state, const Error &error);
+    void finishStop(const std::vector<StopOutcome> &outcomes);
+    void failStop();
+
+    QString m_name;
+    State m_state = State::Opening;
+    Error m_error;
+    bool m_stopped = false;
+    bool m_stopPending = false; ///< its outcome has not come yet
+    JobId m_lastJob = 0;
+    std::vector<StopTarget> m_stopTargets;
+    std::unique_ptr<Outbox> m_outbox; ///< outlives the worker, which fills it
+    std::unique_ptr<BusWorker> m_worker;
 };
 
 } // namespace dynascope

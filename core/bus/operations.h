@@ -22,7 +22,8 @@ struct ReadReply {
 
 Result<PingReply> ping(Bus &bus, std::uint8_t id);
 Result<ReadReply> read(Bus &bus, const Span &span);
-Result<void> write(Bus &bus, const SpanData &data);
+/// `retries` 0 where a second write must not happen by itself: ID, baud rate.
+Result<void> write(Bus &bus, const SpanData &data, int retries = 2);
 Result<void> regWrite(Bus &bus, const SpanData &data);
 Result<void> action(Bus &bus, std::uint8_t id);
 Result<void> factoryReset(Bus &bus, std::uint8_t id, ResetOption option);
@@ -53,7 +54,7 @@ struct Found {
 };
 
 /// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. `found` is called as they
-/// come. Answers beyond [firstId, lastId] are dropped.
+/// come, and once more for a device that turns out doubtful. Answers beyond [firstId, lastId] are dropped.
 Result<std::vector<Found>> scanBaud(Bus &bus, int firstId, int lastId, const std::function<void(const Found &)> &found);
 
 } // namespace dynascope

@@ -25,17 +25,27 @@ public:
     Result<Batch> runCycle();
 
 private:
-    struct SpanState {
-        LineTime due{};
-    };
     struct DeviceState {
-        int silent = 0;       ///< cycles without an answer in a row
-        LineTime probeAt{};   ///< while silent: when to ask again
-        bool fastRefused = false;
+        int silent = 0;        ///< cycles without an answer in a row
+        LineTime probeAt{};    ///< while silent: when to ask again
+        LineTime backOff{};    ///< until the probe after that
+        int fastFailures = 0;  ///< fast reads that failed where a plain one brought the value
     };
+    struct Cycle;
+
+    bool isSleeping(std::uint8_t id) const;
+    Result<void> probe(std::uint8_t id);
+    Result<void> collectDue(Cycle &cycle);
+    Result<void> readPass(Cycle &cycle, bool lastPass);
+    Result<void> runExchange(Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass);
+    void answered(std::uint8_t id, bool afterFastFailure);
+    void missed(std::uint8_t id);
+    void schedule(Cycle &cycle);
+    std::vector<Traits> currentTraits(const Cycle &cycle) const;
+
     Bus &m_bus;
     PollPlan m_plan;
-    std::vector<SpanState> m_spans;
+    std::vector<LineTime> m_due; ///< per span of the plan
     std::map<std::uint8_t, DeviceState> m_devices;
     quint64 m_cycle = 0;
 };

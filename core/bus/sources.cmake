@@ -1,2 +1,23 @@
 target_sources(dynascope_core PRIVATE
+    bus/bus.cpp bus/bus.h bus/bus_values.h
+    bus/busthread.cpp bus/busthread.h
+    bus/busworker.cpp bus/busworker.h
+    bus/collector.cpp bus/collector.h
+    bus/jobcontext.h
+    bus/jobqueue.cpp bus/jobqueue.h
+    bus/line.h bus/linefactory.h bus/traits.h
+    bus/messages.cpp bus/messages.h
+    bus/operations.cpp bus/operations.h
+    bus/outbox.cpp bus/outbox.h
+    bus/poll_values.h
+    bus/poller.cpp bus/poller.h
+    bus/readplan.cpp bus/readplan.h
+    bus/remainder.cpp bus/remainder.h
+    bus/scan.cpp
+    bus/serialbaud_posix.cpp
+    bus/serialline.cpp bus/serialline.h
+    bus/serialport_posix.cpp bus/serialport_posix.h
+    bus/stop_values.h
+    bus/stopsequence.cpp bus/stopsequence.h
+    bus/timing.cpp bus/timing.h
 )

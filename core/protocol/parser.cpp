@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace dynascope {
 namespace {
@@ -100,8 +101,8 @@ Parser::Event Parser::takePacket(std::size_t size)
     const ByteView covered = raw.first(size - 2);
     if (crc16(covered) != littleEndian(raw.subspan(size - 2), 2)) {
         Damaged damaged{Bytes(raw.begin(), raw.end())};
+        m_damaged = std::max(m_damaged, size);
         skip(1);
-        m_noise = 0; // counted as this damaged packet
         return damaged;
     }
     Packet packet;
@@ -119,6 +120,7 @@ Parser::Event Parser::takePacket(std::size_t size)
         packet.parameters.assign(unstuffed.body.begin() + skipped, unstuffed.body.end());
     }
     m_begin += size;
+    m_damaged -= std::min(m_damaged, size);
     return packet;
 }
 
@@ -141,12 +143,17 @@ void Parser::reset()
     m_buffer.clear();
     m_begin = 0;
     m_noise = 0;
+    m_allNoise = 0;
+    m_damaged = 0;
 }
 
 void Parser::skip(std::size_t bytes)
 {
     m_begin += bytes;
-    m_noise += bytes;
+    const std::size_t told = std::min(bytes, m_damaged); // already reported with the damaged packet around it
+    m_damaged -= told;
+    m_noise += bytes - told;
+    m_allNoise += bytes - told;
 }
 
 } // namespace dynascope

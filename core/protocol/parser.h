@@ -35,7 +35,7 @@ public:
     struct Damaged {
         Bytes raw;
     };
-    /// Bytes that belong to no packet.
+    /// Bytes that belong to no packet, damaged ones included.
     struct Noise {
         std::size_t bytes = 0;
     };
@@ -56,6 +56,9 @@ public:
     /// The next event, or nothing until more is fed. Noise is reported before what follows it, in one piece.
     std::optional<Event> next();
 
+    /// All bytes so far that belonged to no packet, also those not reported yet.
+    std::size_t noiseBytes() const { return m_allNoise; }
+
     Pending pending() const;
     ByteView buffered() const { return ByteView(m_buffer).subspan(m_begin); }
 
@@ -72,6 +75,8 @@ private:
     Bytes m_buffer;
     std::size_t m_begin = 0; ///< what stands before has been dealt with
     std::size_t m_noise = 0; ///< skipped and not yet reported
+    std::size_t m_allNoise = 0;
+    std::size_t m_damaged = 0; ///< bytes from m_begin on that were reported within a damaged packet
     std::size_t m_maximumSize;
 };
 

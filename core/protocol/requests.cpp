@@ -60,6 +60,19 @@ bool Request::isIdempotent() const
     }
 }
 
+bool Request::isWrite() const
+{
+    switch (packet.instruction) {
+    case Instruction::Ping:
+    case Instruction::Read:
+    case Instruction::SyncRead:
+    case Instruction::FastSyncRead:
+    case Instruction::BulkRead:
+    case Instruction::FastBulkRead: return false;
+    default: return true;
+    }
+}
+
 std::size_t Request::maximumReplySize() const
 {
     std::size_t size = 0;

@@ -49,6 +49,7 @@ struct Request {
     std::vector<ExpectedReply> replies; ///< empty with None and Anyone
 
     bool isIdempotent() const; ///< may be sent again by itself after a lost answer
+    bool isWrite() const;      ///< answered, if at all, only at Status Return Level 2: neither Ping nor a read
     /// The longest run of bytes that can answer: stuffing at its worst, every device present.
     std::size_t maximumReplySize() const;
 };

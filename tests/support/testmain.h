@@ -4,12 +4,6 @@
 #include <QTemporaryDir>
 #include <QTest>
 
-#include <type_traits>
-
-#ifdef QT_WIDGETS_LIB
-#include <QApplication>
-#endif
-
 namespace dynascope::test {
 
 /// What a test runs in: settings, data and runtime directories that are its own and empty, no screen, the C locale.
@@ -43,31 +37,22 @@ public:
     }
 };
 
-template <typename Application, typename TestClass>
-int main(int argc, char **argv)
+/// `prepare` is called with the application before the test object is made.
+template <typename Application, typename TestClass, typename Prepare>
+int main(int argc, char **argv, const Prepare &prepare)
 {
     const Surroundings surroundings;
     Application application(argc, argv);
-#ifdef QT_WIDGETS_LIB
-    if constexpr (std::is_same_v<Application, QApplication>)
-        QApplication::setQuitOnLastWindowClosed(false); // a test closes windows and goes on
-#endif
+    prepare(application);
     Watched<TestClass> test;
     return run(test, argc, argv);
 }
 
 } // namespace dynascope::test
 
-/// As QTEST_GUILESS_MAIN, and an unexpected warning fails the test.
+/// As QTEST_GUILESS_MAIN, and an unexpected warning fails the test. With widgets: see uitest.h.
 #define DYNASCOPE_CORE_TEST(TestClass)                                                                                  \
     int main(int argc, char **argv)                                                                                     \
     {                                                                                                                   \
-        return dynascope::test::main<QCoreApplication, TestClass>(argc, argv);                                          \
-    }
-
-/// As QTEST_MAIN, offscreen, with settings of its own; an unexpected warning fails the test.
-#define DYNASCOPE_UI_TEST(TestClass)                                                                                    \
-    int main(int argc, char **argv)                                                                                     \
-    {                                                                                                                   \
-        return dynascope::test::main<QApplication, TestClass>(argc, argv);                                              \
+        return dynascope::test::main<QCoreApplication, TestClass>(argc, argv, [](QCoreApplication &) {});               \
     }

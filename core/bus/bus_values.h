@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/line.h"
+#include "core/protocol/requests.h"
+
+namespace dynascope {
+
+/// One device's answer.
+struct Reply {
+    std::uint8_t id = 0;
+    DeviceError error = DeviceError::None;
+    bool alert = false; ///< Hardware Error Status is latched; never itself a failure
+    Bytes data;
+    LineTime at{}; ///< when its last byte had come
+};
+
+/// What the line did during one exchange, for messages and statistics.
+struct Observations {
+    std::size_t bytesReceived = 0;
+    std::size_t noiseBytes = 0;
+    int damagedPackets = 0;
+    std::vector<std::uint8_t> damagedIds; ///< as they stood in those packets; may be damaged themselves
+    int strayPackets = 0;            ///< valid, but not asked for
+    std::vector<std::uint8_t> strayIds;
+    bool echo = false;               ///< the request itself came back first
+    int retries = 0;
+    LineTime roundTrip{};            ///< write to last reply
+};
+
+/// Everything a request brought. One entry per expected reply, in the order of the request; with a broadcast Ping one
+/// per device that answered.
+struct ExchangeResult {
+    std::vector<Result<Reply>> replies; ///< errors name the device and what was seen
+    int brokenAt = -1;                  ///< index of the reply at which a chain of replies broke; -1: it didn't
+    Observations seen;
+};
+
+/// Counts since the line was opened.
+struct BusStatistics {
+    quint64 exchanges = 0;
+    quint64 replies = 0;
+    quint64 timeouts = 0;    ///< nothing received, no header, cut off
+    quint64 crcErrors = 0;
+    quint64 lengthErrors = 0;
+    quint64 strays = 0;
+    quint64 retries = 0;
+    quint64 bytesSent = 0;
+    quint64 bytesReceived = 0;
+    LineTime busy{};         ///< time spent inside exchanges
+
+    friend bool operator==(const BusStatistics &, const BusStatistics &) = default;
+};
+
+} // namespace dynascope

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/line.h"
+#include "core/protocol/protocol_values.h"
+
+#include <vector>
+
+/// The one place where errors of the wire are put into words: each says what was seen, never just "no answer".
+namespace dynascope::messages {
+
+Error nothingReceived(std::uint8_t id, LineTime waited);
+Error noHeader(std::uint8_t id, std::size_t bytes);
+Error cutOff(std::uint8_t id, std::size_t have, std::size_t want);
+Error damagedCrc(std::uint8_t id);
+Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others);
+Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want);
+Error refused(std::uint8_t id, DeviceError error);
+/// In a group read every device waits to hear the one listed before it.
+Error chainBroken(std::uint8_t id, std::uint8_t culprit);
+Error silentByLevel(std::uint8_t id, int statusReturnLevel);
+
+Error stopped();
+Error cancelled();
+Error closed(const QString &port);
+Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack);
+Error packetTooLong(std::size_t bytes, std::size_t limit);
+
+Error portNotFound(const QString &port);
+Error portForbidden(const QString &port);
+Error portBusy(const QString &port, const QString &holder); ///< `holder`: who has it, as far as known
+Error portNotSerial(const QString &port);
+Error portFailed(const QString &port, const QString &reason); ///< opening failed otherwise
+Error portLost(const QString &port);
+Error rateRefused(const QString &port, int wanted, int made); ///< `made` 0: the port refused it
+
+QString durationText(LineTime duration); ///< "0.8 ms", "16 ms", "1.2 s"
+
+} // namespace dynascope::messages

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/linefactory.h"
+#include "core/bus/serialport_posix.h"
+
+#include <QSerialPort>
+
+#include <optional>
+
+namespace dynascope {
+
+/// A serial port, for this program alone. Blocking, without an event loop, on the thread that opened it, which must be a
+/// QThread.
+class SerialLine final : public Line
+{
+public:
+    struct Options {
+        /// How late an answer may come on account of the host. Default by kind: a pseudo-terminal 50 ms; else what the
+        /// adapter holds bytes back, 16 ms where that isn't known, and 5 ms of scheduling.
+        std::optional<LineTime> hostAllowance;
+    };
+
+    /// Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
+    static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const Options &options);
+
+    QString name() const override { return m_name; }
+    LineTime now() const override;
+    Result<void> write(ByteView packet) override;
+    Result<void> read(Bytes &buffer, LineTime deadline) override;
+    void discardInput() override;
+    int baudRate() const override { return m_baudRate; }
+    Result<void> setBaudRate(int bitsPerSecond) override;
+    LineTime hostAllowance() const override { return m_hostAllowance; }
+
+private:
+    SerialLine(QString name, posix::PortGuard guard);
+
+    Result<void> start(int baudRate, const Options &options);
+    Result<void> lose();
+    bool isFine();
+    bool take(Bytes &buffer);
+
+    QString m_name;
+    posix::PortGuard m_guard;
+    QSerialPort m_port;
+    int m_baudRate = 57600;
+    LineTime m_hostAllowance{};
+    bool m_lost = false;
+};
+
+/// Opens serial ports by their path.
+class SerialLineFactory final : public LineFactory
+{
+public:
+    explicit SerialLineFactory(SerialLine::Options options = {}) : m_options(options) {}
+
+    bool knows(const QString &name) const override;
+    Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;
+
+private:
+    const SerialLine::Options m_options;
+};
+
+/// The machine's serial ports, likely adapters first.
+class SerialPortList final : public PortList
+{
+public:
+    std::vector<PortInfo> ports() const override;
+};
+
+} // namespace dynascope

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/stopsequence.h"
+
+#include "core/bus/operations.h"
+#include "core/bus/readplan.h"
+
+#include <algorithm>
+#include <set>
+
+namespace dynascope {
+
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Somebody else's packet may just be on the wire; longer than this STOP doesn't wait for it.
+constexpr LineTime WireFree = 500us;
+constexpr LineTime WireFreeLimit = 2ms;
+constexpr LineTime Quiet = 2ms;
+constexpr LineTime QuietLimit = 20ms;
+
+Result<void> sendAll(Bus &bus, const std::vector<Bytes> &packets)
+{
+    for (const Bytes &packet : packets) {
+        if (Result<void> sent = bus.sendOnly(packet); !sent)
+            return sent;
+    }
+    return {};
+}
+
+Result<void> sendTwice(Bus &bus, const std::vector<Bytes> &packets)
+{
+    if (Result<void> sent = sendAll(bus, packets); !sent)
+        return sent;
+    if (Result<void> quiet = bus.settle(Quiet, QuietLimit); !quiet)
+        return quiet;
+    return sendAll(bus, packets);
+}
+
+SpanData torqueOff(const StopTarget &target)
+{
+    return {target.id, target.torqueAddress, {0}};
+}
+
+} // namespace
+
+StopPlan::StopPlan(std::vector<StopTarget> targets)
+    : m_targets(std::move(targets))
+{
+    for (const int baudRate : bauds())
+        m_packets[baudRate] = make(baudRate);
+    m_elsewhere = make(0);
+}
+
+std::vector<int> StopPlan::bauds() const
+{
+    std::set<int> rates;
+    for (const StopTarget &target : m_targets)
+        rates.insert(target.baudRate);
+    return {rates.begin(), rates.end()};
+}
+
+const std::vector<Bytes> &StopPlan::packets(int baudRate) const
+{
+    const auto known = m_packets.find(baudRate);
+    return known == m_packets.end() ? m_elsewhere : known->second;
+}
+
+std::vector<Bytes> StopPlan::make(int baudRate) const
+{
+    std::set<std::uint8_t> here;
+    std::vector<SpanData> writes, strangers;
+    for (const StopTarget &target : m_targets) {
+        if (target.baudRate == baudRate && here.insert(target.id).second)
+            writes.push_back(torqueOff(target));
+    }
+    for (const StopTarget &target : m_targets) {
+        const SpanData write = torqueOff(target);
+        if (!here.contains(target.id) && std::ranges::find(strangers, write) == strangers.end())
+            strangers.push_back(write);
+    }
+    writes.insert(writes.end(), strangers.begin(), strangers.end());
+    // Sync Writes by address, so that nothing hangs on what a model knows of Bulk Write.
+    std::map<std::uint16_t, std::vector<SpanData>> byAddress;
+    for (const SpanData &write : writes)
+        byAddress[write.address].push_back(write);
+    std::vector<Bytes> packets;
+    for (const auto &[address, group] : byAddress) {
+        for (const Request &request : planWrites(group, {}))
+            packets.push_back(encode(request.packet));
+    }
+    return packets;
+}
+
+Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud)
+{
+    if (plan.targets().empty())
+        return {};
+    const int present = bus.line().baudRate();
+    if (Result<void> freed = bus.settle(WireFree, WireFreeLimit); !freed)
+        return freed;
+    if (Result<void> sent = sendTwice(bus, plan.packets(present)); !sent)
+        return sent;
+    std::vector<int> others = plan.bauds();
+    others.push_back(workingBaud);
+    std::set<int> done{present};
+    for (const int baudRate : others) {
+        if (!done.insert(baudRate).second || !bus.setBaudRate(baudRate))
+            continue;
+        if (Result<void> sent = sendTwice(bus, plan.packets(baudRate)); !sent)
+            return sent;
+    }
+    (void)bus.setBaudRate(workingBaud); // where that fails the line is lost, or at a rate that it can do
+    if (bus.lost())
+        return tl::unexpected(*bus.lost());
+    return {};
+}
+
+namespace {
+
+Result<ReadReply> readTorque(Bus &bus, const StopTarget &target)
+{
+    Result<ReadReply> value = read(bus, {target.id, target.torqueAddress, 1});
+    if (!value || value->data[0] == 0)
+        return value;
+    if (Result<void> written = write(bus, torqueOff(target)); !written && written.error().kind == ErrorKind::Stopped)
+        return tl::unexpected(written.error());
+    return read(bus, {target.id, target.torqueAddress, 1});
+}
+
+StopOutcome verifyOne(Bus &bus, const StopTarget &target, int alsoTry)
+{
+    Result<ReadReply> value;
+    for (const int baudRate : std::set<int>{target.baudRate, alsoTry}) {
+        if (Result<void> set = bus.setBaudRate(baudRate); !set)
+            value = tl::unexpected(set.error());
+        else
+            value = readTorque(bus, target);
+        if (value || value.error().kind == ErrorKind::Stopped)
+            break;
+    }
+    if (!value)
+        return {target.device, false, value.error().text};
+    if (value->data[0] != 0)
+        return {target.device, false, QStringLiteral("device %1 still says that its torque is on").arg(target.id)};
+    return {target.device, true, {}};
+}
+
+} // namespace
+
+std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud, int alsoTry)
+{
+    std::vector<StopTarget> targets = plan.targets();
+    // Those at the working rate first, then rate by rate: few switches.
+    std::ranges::stable_sort(targets, {}, [workingBaud](const StopTarget &target) {
+        return target.baudRate == workingBaud ? 0 : target.baudRate;
+    });
+    std::vector<StopOutcome> outcomes;
+    for (const StopTarget &target : targets) {
+        outcomes.push_back(verifyOne(bus, target, alsoTry));
+        if (bus.isStopped())
+            return {};
+    }
+    (void)bus.setBaudRate(workingBaud);
+    return outcomes;
+}
+
+} // namespace dynascope
