@@ -14,6 +14,7 @@ namespace dynascope {
 namespace {
 
 constexpr int FormatVersion = 1;
+constexpr int MostModels = 64; ///< in one file
 
 tl::unexpected<Error> bad(const QString &name, const QString &text)
 {
@@ -100,6 +101,8 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
         base = found->second;
     }
     const QJsonObject models = file.value(u"models").toObject();
+    if (models.size() > MostModels)
+        return bad(name, QStringLiteral("more than %1 models").arg(MostModels));
     for (const char16_t *key : {u"format", u"extends", u"models"})
         file.remove(QStringView(key));
     const QJsonObject settings = merged(base, file, &wrong);

@@ -9,6 +9,7 @@ namespace dynascope {
 namespace {
 
 constexpr int MostRegisters = 2000;
+constexpr int MostTables = 16; ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
 
 const QString IndirectAddress = QStringLiteral("Indirect Address #");
@@ -84,6 +85,8 @@ std::vector<int> TableBuilder::firmwareSteps()
     collectSteps(m_settings.value(u"indirect"), QStringLiteral("indirect"), steps);
     std::sort(steps.begin(), steps.end());
     steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    if (static_cast<int>(steps.size()) > MostTables)
+        say(QStringLiteral("more than %1 kinds of firmware").arg(MostTables));
     return steps;
 }
 
@@ -172,6 +175,8 @@ void TableBuilder::readIndirectBlock(const QJsonObject &block, const QJsonValue 
     const QJsonObject definitions = m_settings.value(u"definitions").toObject();
     QJsonObject pointer = definitions.value(IndirectAddress).toObject();
     QJsonObject data = definitions.value(IndirectData).toObject();
+    if (range.isUndefined() || pointer.isEmpty() || data.isEmpty())
+        return say(QStringLiteral("%1: needs \"range\", and definitions of the two registers").arg(where));
     pointer.insert(QStringLiteral("range"), range);
     for (std::int64_t i = 0; i < count && m_wrong.isEmpty(); ++i, ++number) {
         pointer.insert(QStringLiteral("address"), static_cast<qint64>(address + i * pointer.value(u"size").toInt()));
@@ -207,15 +212,16 @@ void TableBuilder::checkTogether(std::vector<Field> &fields)
 
 void TableBuilder::checkNames(std::vector<Field> &fields)
 {
-    QStringList names, plain;
+    QStringList names;
+    std::vector<std::pair<QString, QString>> plain;
     for (const Field &field : fields) {
         names.append(field.name);
-        plain.append(normalizedName(field.name));
+        plain.emplace_back(normalizedName(field.name), field.name);
     }
-    plain.sort();
-    for (qsizetype i = 1; i < plain.size(); ++i) {
-        if (plain[i] == plain[i - 1])
-            return say(QStringLiteral("two registers are called %1").arg(plain[i]));
+    std::sort(plain.begin(), plain.end());
+    for (std::size_t i = 1; i < plain.size(); ++i) {
+        if (plain[i].first == plain[i - 1].first)
+            return say(QStringLiteral("%1 and %2 are one name").arg(plain[i - 1].second, plain[i].second));
     }
     const QJsonObject definitions = m_settings.value(u"definitions").toObject();
     for (Field &field : fields) {
