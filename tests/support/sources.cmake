@@ -1,1 +1,6 @@
-target_sources(dynascope_test_support PRIVATE support/oracle.cpp support/oracle.h)
+target_sources(dynascope_test_support PRIVATE
+    support/fakeline.cpp support/fakeline.h
+    support/fakeservos.cpp support/fakeservos.h
+    support/hex.cpp support/hex.h
+    support/oracle.cpp support/oracle.h
+)
