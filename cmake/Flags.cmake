@@ -7,7 +7,7 @@ target_compile_definitions(dynascope_flags INTERFACE
     QT_NO_NARROWING_CONVERSIONS_IN_CONNECT QT_NO_FOREACH QT_NO_JAVA_STYLE_ITERATORS
     QT_DISABLE_DEPRECATED_BEFORE=0x060400)
 target_compile_options(dynascope_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-    -Woverloaded-virtual -Wcast-align -Wunused -Wnull-dereference -Wimplicit-fallthrough)
+    -Woverloaded-virtual -Wcast-align -Wunused -Wimplicit-fallthrough)
 if(DYNASCOPE_WERROR)
     target_compile_options(dynascope_flags INTERFACE -Werror)
 endif()

@@ -18,6 +18,8 @@ public:
 
     /// Is this a name this factory knows how to open? Any thread.
     virtual bool knows(const QString &name) const = 0;
+    /// On the GUI thread, before a line of this name is opened: what must be started there.
+    virtual void prepare(const QString &name) { Q_UNUSED(name) }
     /// On the thread that will use the line. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
     virtual Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) = 0;
 };

@@ -25,7 +25,8 @@ struct PollPlan {
 struct PollValue {
     quint32 device = 0;
     std::uint16_t address = 0;
-    Bytes data;         ///< empty where it failed
+    std::uint16_t length = 0; ///< as asked for
+    Bytes data;               ///< empty where it failed
     Error error;        ///< where data is empty
     bool alert = false;
     LineTime at{};      ///< when the reply had come, or when waiting for it ended

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/procedures/procedures.h"
 #include "core/session/session.h"
+
+#include <map>
 
 namespace dynascope {
 
@@ -16,8 +19,8 @@ public:
 
     explicit Commands(Session &session, QObject *parent = nullptr);
 
-    /// Writes a raw value and reads the register back. A write to the same field that still waits is replaced, so a slider
-    /// may call this as often as it likes.
+    /// Writes a raw value and reads the register back. While one write to a field is on its way the newest of those that
+    /// follow waits and the others end Cancelled, so a slider may call this as often as it likes.
     void writeField(Device &device, int fieldIndex, std::int64_t raw, Done done = {});
     void readAll(Device &device, Done done = {});
     void setTorque(const std::vector<Device *> &devices, bool on, Done done = {});
@@ -30,8 +33,9 @@ public:
     /// Refused before the first write where it can't end well: ID taken, baud not offered by model or port. A failure says
     /// where the device is now. Torque must be off, or `turnTorqueOff` be set.
     void changeId(Device &device, int newId, bool turnTorqueOff, Done done = {});
+    /// Where the device was the only one at the line's baud rate the line follows it, else it is parked.
     void changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done done = {});
-    /// The line itself: "work at this baud". Devices elsewhere are parked.
+    /// The line itself: "work at this baud". Devices elsewhere are parked. Refused where the port can't do it.
     void workAtBaud(LineSession &line, int baudRate, Done done = {});
 
     /// While STOP holds, torque-on and goal writes are refused.
@@ -40,11 +44,33 @@ public:
 
 signals:
     void succeeded(dynascope::Device *device, const QString &what); ///< for actions a person should hear of
-    void failed(dynascope::Device *device, const dynascope::Error &error);
+    void failed(dynascope::Device *device, const dynascope::Error &error); ///< `device` may be null: of a line
 
 private:
+    using FieldKey = std::pair<DeviceKey, int>;
+    struct Waiting {
+        std::int64_t raw = 0;
+        Done done;
+    };
+
+    Result<void> checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const;
+    void sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done);
+    void finishWrite(DeviceKey key, int fieldIndex, const Result<std::vector<PollValue>> &values, const Done &done);
+    void refuse(Device *device, const Error &error, const Done &done);
+    Done reporting(Device &device, const QString &success, Done done);
+    void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
+    void awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done);
+    void moved(DeviceKey key, const Found &found);
+
     Session &m_session;
     bool m_stopped = false;
+    std::map<FieldKey, std::optional<Waiting>> m_writes; ///< on their way, each with the newest that waits behind it
 };
+
+/// Where the device is, for procedures.
+DevicePlace placeOf(const Device &device);
+/// The stretches of the table to read so that every field is covered, gaps of a few bytes read through, none longer than
+/// `longest` bytes. Only fields that `wanted` accepts.
+std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest = 128);
 
 } // namespace dynascope

@@ -77,8 +77,10 @@ public:
     void setFound(const Found &found);
     void setState(State state);
     void setAlert(bool alert);
-    void take(const PollValue &value);           ///< bytes that were read; marks fresh, or Failed
+    void setHeard(LineTime at);
+    void take(const PollValue &value);           ///< bytes that were read; a pending field stays pending
     void setPending(int fieldIndex, std::int64_t raw);
+    void clearPending(int fieldIndex);           ///< the write is over; take() what was read back
     void setFailed(int fieldIndex, const QString &error);
     void setAllStale();
     /// @}

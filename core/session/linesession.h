@@ -4,6 +4,11 @@
 #include "core/bus/busthread.h"
 #include "core/session/device.h"
 
+#include <QElapsedTimer>
+#include <QTimer>
+
+#include <map>
+
 namespace dynascope {
 
 class Catalog;
@@ -14,11 +19,14 @@ class LineSession : public QObject
     Q_OBJECT
 
 public:
-    LineSession(std::unique_ptr<BusThread> thread, const Catalog &catalog, QObject *parent = nullptr);
+    /// `factory`, `catalog` and `nextKey` (where the next device's number comes from) outlive this.
+    LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog, DeviceKey &nextKey,
+                QObject *parent = nullptr);
     ~LineSession() override;
 
     QString name() const { return m_thread->name(); }
-    BusThread &bus() const { return *m_thread; }
+    BusThread &bus() const { return *m_thread; } ///< another one after reopen()
+    void reopen();                               ///< a lost line once more, keeping its devices
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
 
@@ -29,7 +37,11 @@ public:
 
     /// A scan or an operation saw this; makes the device or brings it up to date.
     Device &heard(const Found &found);
+    /// The same device now stands elsewhere: ID or baud rate changed, or it was reset.
+    void moveDevice(Device &device, const Found &found);
     void forget(DeviceKey key);
+    /// The line itself moves; devices elsewhere are parked.
+    void setWorkingBaudRate(int bitsPerSecond);
 
     /// Full-rate cycles a second over the last second; 0 while nothing is watched at full rate.
     double cycleRate() const { return m_cycleRate; }
@@ -44,11 +56,24 @@ signals:
     void rateChanged();                             ///< cycle rate, bus load, statistics: about once a second
 
 private:
+    void startThread(const QString &name, int baudRate);
+    void onThreadState();
     void takeBatches();
+    void take(const Batch &batch);
+    void countFailure(Device &device, const Error &error);
+    void measureRates();
+    void park(Device &device);
 
-    std::unique_ptr<BusThread> m_thread;
+    LineFactory &m_factory;
     const Catalog &m_catalog;
+    DeviceKey &m_nextKey;
+    std::unique_ptr<BusThread> m_thread;
     std::vector<std::unique_ptr<Device>> m_devices;
+    std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row
+    QTimer m_rateTimer;
+    QElapsedTimer m_sinceMeasured;
+    int m_fullRateCycles = 0;
+    LineTime m_busyAtMeasure{};
     double m_cycleRate = 0;
     double m_busLoad = 0;
 };

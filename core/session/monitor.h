@@ -45,13 +45,19 @@ signals:
     void watchesChanged();
 
 private:
+    void follow(LineSession *line);
+    void drop(Device *device);
+    void replanSoon();
     void replan();
+    void record(const Batch &batch);
 
     Session &m_session;
     std::set<Watch> m_watches;
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
     bool m_paused = false;
+    QTimer m_replanTimer;
+    std::map<const BusThread *, PollPlan> m_sentPlans; ///< so that nothing is sent twice
 };
 
 } // namespace dynascope

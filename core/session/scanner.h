@@ -6,7 +6,7 @@
 namespace dynascope {
 
 struct ScanRange {
-    std::vector<int> bauds; ///< in the order to try
+    std::vector<int> bauds; ///< in the order to try; at least one
     int firstId = 0;
     int lastId = 252;
 };
@@ -38,6 +38,7 @@ signals:
 private:
     QPointer<LineSession> m_line;
     JobId m_job = 0;
+    int m_run = 0; ///< notes of an earlier scan are dropped by this
     double m_progress = 0;
     int m_currentBaud = 0;
     int m_found = 0;

@@ -1,2 +1,15 @@
 target_sources(dynascope_core PRIVATE
+    session/commands.cpp session/commands.h
+    session/device.cpp session/device.h
+    session/history.cpp session/history.h
+    session/linesession.cpp session/linesession.h
+    session/monitor.cpp session/monitor.h
+    session/placecommands.cpp
+    session/procedures/atbaud.h
+    session/procedures/changeplace.cpp
+    session/procedures/procedures.cpp session/procedures/procedures.h
+    session/scanner.cpp session/scanner.h
+    session/session.cpp session/session.h
+    session/stopcontrol.cpp session/stopcontrol.h
+    session/watchplan.cpp session/watchplan.h
 )

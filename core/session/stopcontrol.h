@@ -24,9 +24,15 @@ signals:
     void changed();
 
 private:
+    void prepare(); ///< hands each bus thread its torque-off targets
+    void take(const std::vector<StopOutcome> &outcomes);
+    void makeReport();
+
     Session &m_session;
     Commands &m_commands;
+    QTimer m_prepareTimer;
     bool m_active = false;
+    int m_waiting = 0; ///< lines that have not reported yet
     QString m_report;
     std::vector<StopOutcome> m_outcomes;
 };

@@ -74,7 +74,8 @@ struct Field {
     Bound minimum, maximum;
     Unit unit = Unit::None;
     double scale = 1.0;    ///< physical = raw × scale, in `unit`
-    std::vector<EnumValue> values;
+    std::vector<EnumValue> values;  ///< not empty: the only values allowed
+    std::vector<EnumValue> special; ///< names of single values among ordinary numbers: "0 is Off"
     std::vector<BitField> bits;
     std::vector<Alternate> alternates;
     QStringList resets;    ///< registers that a write here puts back to other values

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QColor>
+#include <QFont>
 #include <QPalette>
 
 class QApplication;
@@ -20,11 +21,17 @@ struct ThemeColors {
 /// Fusion with our own light or dark palette. The system's own choice is read once, at the first call.
 void applyTheme(QApplication &application, ColorScheme scheme);
 QPalette palette(ColorScheme scheme);
+/// What a person chose last; System where nobody did.
+ColorScheme savedColorScheme();
+void saveColorScheme(ColorScheme scheme);
 /// Those that go with a palette made here. Cheap: may be called while painting.
 const ThemeColors &colors(const QPalette &palette);
 
 /// Okabe-Ito first; `index` is the trace's own, so a trace keeps its colour.
 QColor traceColor(int index, const QPalette &palette);
+
+/// WCAG 2: 1 (the same) to 21 (black on white).
+double contrastRatio(const QColor &one, const QColor &other);
 
 /// The UI font if its ten digits are of one width, else the system's fixed font at the same size.
 QFont numberFont(const QFont &base);

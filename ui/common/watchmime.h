@@ -5,6 +5,9 @@
 
 #include <QMimeData>
 
+#include <memory>
+#include <vector>
+
 namespace dynascope {
 
 /// Fields dragged from the table to a plot.

@@ -1,2 +1,25 @@
 target_sources(dynascope_ui PRIVATE
+    table/bitpopup.cpp table/bitpopup.h
+    table/cellpainter.cpp table/cellpainter.h
+    table/changetracker.cpp table/changetracker.h
+    table/editflow.cpp table/editflow.h
+    table/enumedit.cpp table/enumedit.h
+    table/fielddelegate.cpp table/fielddelegate.h
+    table/fieldfiltermodel.cpp table/fieldfiltermodel.h
+    table/fieldgroups.cpp table/fieldgroups.h
+    table/fieldtablemodel.cpp table/fieldtablemodel.h
+    table/fieldwordsmodel.cpp table/fieldwordsmodel.h
+    table/goalbar.cpp table/goalbar.h
+    table/goalslider.cpp table/goalslider.h
+    table/helppanel.cpp table/helppanel.h
+    table/lockbar.cpp table/lockbar.h
+    table/tableactions.cpp table/tableactions.h
+    table/tableempty.cpp table/tableempty.h
+    table/tablemenu.cpp table/tablemenu.h
+    table/tablepanel.cpp table/tablepanel.h
+    table/tableroles.h
+    table/tabletools.cpp table/tabletools.h
+    table/tableview.cpp table/tableview.h
+    table/valueedit.cpp table/valueedit.h
+    table/writethrottle.cpp table/writethrottle.h
 )

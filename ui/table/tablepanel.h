@@ -3,10 +3,29 @@
 
 #include "core/session/monitor.h"
 #include "ui/common/workbench.h"
+#include "ui/table/tableactions.h"
 
 #include <QWidget>
 
+#include <functional>
+#include <map>
+
+class QStackedLayout;
+
 namespace dynascope {
+
+class EditFlow;
+class FieldDelegate;
+class FieldFilterModel;
+class FieldTableModel;
+class FieldWordsModel;
+class GoalBar;
+class HelpPanel;
+class LockBar;
+class TableEmpty;
+class TableTools;
+class TableView;
+enum class AngleUnit;
 
 /// The control table of the selected devices: search, filters, grid with editors, goal sliders, why a field is locked.
 class TablePanel : public QWidget
@@ -15,13 +34,56 @@ class TablePanel : public QWidget
 
 public:
     explicit TablePanel(const Workbench &workbench, QWidget *parent = nullptr);
+    /// For who has no session. `clock`: milliseconds, for what fades.
+    explicit TablePanel(TableActions actions, std::function<qint64()> clock = {}, QWidget *parent = nullptr);
+    ~TablePanel() override;
 
     void setDevices(const std::vector<Device *> &devices); ///< of one model; empty shows what belongs here
+    void refreshWatches();                                 ///< what is plotted has changed
+    void setAngleUnit(AngleUnit unit);
+
+    QByteArray saveState() const; ///< column widths, what is folded
+    void restoreState(const QByteArray &state);
 
 signals:
     void plotRequested(const dynascope::Watch &watch); ///< ticked, or from the menu
     void unplotRequested(const dynascope::Watch &watch);
+    void changeIdRequested(dynascope::Device *device); ///< the register is changed by a procedure, not by a write
+    void changeBaudRequested(dynascope::Device *device);
     void message(const QString &text); ///< for the message bar
+
+protected:
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    void build();
+    void connectParts();
+    void addShortcuts();
+    QModelIndex valueCell() const; ///< of the current row, in the view's model
+    void updateGroups();
+    void currentChanged();
+    void togglePlot(const QModelIndex &cell);
+    void showMenu(const QPoint &at);
+    void copyValue();
+    void setEmptyText();
+    void selectField(const QString &name);
+
+    TableActions m_actions;
+    FieldTableModel *m_model;
+    FieldWordsModel *m_words;
+    FieldFilterModel *m_filter;
+    TableTools *m_tools;
+    TableView *m_view;
+    FieldDelegate *m_delegate;
+    LockBar *m_lockBar;
+    GoalBar *m_goals;
+    HelpPanel *m_help;
+    TableEmpty *m_empty;
+    QStackedLayout *m_pages;
+    EditFlow *m_flow;
+    std::map<QString, bool> m_folded; ///< groups that a person folded or opened, by title
+    bool m_arranging = false;
 };
 
 } // namespace dynascope

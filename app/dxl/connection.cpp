@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/connection.h"
+
+#include "app/dxl/options.h"
+#include "core/bus/serialline.h"
+
+#include <cstdio>
+
+namespace dynascope::dxl {
+
+namespace {
+
+void printPacket(Bus::Direction direction, LineTime at, ByteView packet)
+{
+    const QByteArray bytes(reinterpret_cast<const char *>(packet.data()), static_cast<qsizetype>(packet.size()));
+    std::fprintf(stderr, "%12.3f ms %s %s\n", std::chrono::duration<double, std::milli>(at).count(),
+                 direction == Bus::Direction::Sent ? ">" : "<", bytes.toHex(' ').toUpper().constData());
+}
+
+} // namespace
+
+Connection::Connection(std::unique_ptr<Line> line)
+    : m_line(std::move(line))
+    , m_bus(*m_line)
+{
+}
+
+Result<std::unique_ptr<Connection>> Connection::open(const Options &options)
+{
+    SerialLineFactory factory;
+    auto line = factory.open(options.port, options.baudRate);
+    if (!line)
+        return tl::unexpected(line.error());
+    std::unique_ptr<Connection> connection(new Connection(std::move(*line)));
+    if (options.verbose) {
+        const LineTime begin = connection->m_line->now();
+        connection->m_bus.setTap([begin](Bus::Direction direction, LineTime at, ByteView packet) {
+            printPacket(direction, at - begin, packet);
+        });
+    }
+    return connection;
+}
+
+Error withAdvice(const Error &error, const Options &options)
+{
+    if (error.kind != ErrorKind::NothingReceived && error.kind != ErrorKind::NoHeader)
+        return error;
+    Error advised = error;
+    advised.text += QStringLiteral("; to look for it at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
+    return advised;
+}
+
+} // namespace dynascope::dxl

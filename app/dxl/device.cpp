@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/device.h"
+
+#include <QStringList>
+
+#include <algorithm>
+
+namespace dynascope::dxl {
+
+namespace {
+
+/// The table's names that contain what was typed or begin like it, a few.
+QStringList namesLike(const ControlTable &table, const QString &typed)
+{
+    const QString wanted = normalizedName(typed);
+    QStringList names;
+    for (qsizetype length = wanted.size(); length >= 3 && names.isEmpty(); --length) {
+        for (const Field &field : table.fields()) {
+            if (names.size() < 5 && normalizedName(field.name).contains(wanted.left(length)))
+                names.append(field.name);
+        }
+    }
+    return names;
+}
+
+} // namespace
+
+Result<void> Device::identify(const Catalog &catalog)
+{
+    const auto reply = ping(m_bus, m_id);
+    if (!reply)
+        return tl::unexpected(reply.error());
+    m_modelNumber = reply->modelNumber;
+    m_table = catalog.find(reply->modelNumber, reply->firmware);
+    m_model = modelName(catalog, reply->modelNumber);
+    const Field *level = m_table ? m_table->find(u"Status Return Level") : nullptr;
+    if (!level)
+        return {};
+    // A device that answers Ping but no Read has level 0: "Status Return Level".
+    const auto value = read(*level);
+    if (value)
+        setTraits(static_cast<std::uint8_t>(*value));
+    else if (value.error().kind == ErrorKind::NothingReceived)
+        setTraits(0);
+    else
+        return tl::unexpected(value.error());
+    return {};
+}
+
+QString Device::name() const
+{
+    return m_model.isEmpty() ? QStringLiteral("ID %1").arg(m_id) : QStringLiteral("%1 (ID %2)").arg(m_model).arg(m_id);
+}
+
+Result<const Field *> Device::field(const QString &name) const
+{
+    if (!m_table) {
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("%1: there is no control table for model %2; \"%3\" has to be given as ADDRESS:LENGTH")
+                           .arg(this->name()).arg(m_modelNumber).arg(name));
+    }
+    if (const Field *field = m_table->find(name))
+        return field;
+    const QStringList near = namesLike(*m_table, name);
+    return failure(ErrorKind::InvalidArgument,
+                   QStringLiteral("%1 has no field \"%2\"%3")
+                       .arg(this->name(), name,
+                            near.isEmpty() ? QString() : QStringLiteral("; nearest: ") + near.join(QStringLiteral(", "))));
+}
+
+Result<Bytes> Device::read(int address, int length)
+{
+    auto reply = dynascope::read(m_bus, {m_id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
+    if (!reply)
+        return tl::unexpected(reply.error());
+    return std::move(reply->data);
+}
+
+Result<std::int64_t> Device::read(const Field &field)
+{
+    const auto bytes = read(field.address, field.size);
+    if (!bytes)
+        return tl::unexpected(bytes.error());
+    const std::int64_t raw = rawFromBytes(field, *bytes);
+    learn(field, raw);
+    return raw;
+}
+
+EffectiveField Device::units(const Field &field)
+{
+    return effective(field, [&](QStringView name) -> std::optional<std::int64_t> {
+        const bool decides = std::any_of(field.alternates.begin(), field.alternates.end(), [&](const Alternate &alternate) {
+            return normalizedName(alternate.reg) == normalizedName(name);
+        });
+        return decides ? lookUp(name) : std::nullopt;
+    });
+}
+
+EffectiveField Device::limits(const Field &field)
+{
+    return effective(field, [&](QStringView name) { return lookUp(name); });
+}
+
+void Device::learn(const Field &field, std::int64_t raw)
+{
+    m_known[normalizedName(field.name)] = raw;
+    if (normalizedName(field.name) == u"statusreturnlevel")
+        setTraits(static_cast<std::uint8_t>(raw));
+}
+
+Result<void> Device::follow(const Found &found)
+{
+    m_id = found.id;
+    setTraits(m_statusReturnLevel);
+    return m_bus.line().baudRate() == found.baudRate ? Result<void>() : m_bus.setBaudRate(found.baudRate);
+}
+
+std::optional<std::int64_t> Device::lookUp(QStringView name)
+{
+    const auto known = m_known.find(normalizedName(name));
+    if (known != m_known.end())
+        return known->second;
+    const Field *field = m_table ? m_table->find(name) : nullptr;
+    if (!field)
+        return std::nullopt;
+    const auto raw = read(*field);
+    return raw ? std::optional(*raw) : std::nullopt;
+}
+
+void Device::setTraits(std::uint8_t statusReturnLevel)
+{
+    m_statusReturnLevel = statusReturnLevel;
+    Traits traits;
+    traits.id = m_id;
+    traits.baudRate = m_bus.line().baudRate();
+    traits.statusReturnLevel = statusReturnLevel;
+    m_bus.setTraits({traits});
+}
+
+} // namespace dynascope::dxl

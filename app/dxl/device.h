@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/operations.h"
+#include "core/table/catalog.h"
+
+#include <map>
+
+namespace dynascope::dxl {
+
+/// One device on the line with the table that its model and firmware have, and what has been read of it so far.
+class Device
+{
+public:
+    Device(Bus &bus, std::uint8_t id) : m_bus(bus), m_id(id) {}
+
+    /// Pings; from then on the device has a table if its model is known, and the bus knows how it answers.
+    Result<void> identify(const Catalog &catalog);
+
+    Bus &bus() const { return m_bus; }
+    std::uint8_t id() const { return m_id; }
+    std::uint16_t modelNumber() const { return m_modelNumber; }
+    bool isIdentified() const { return !m_model.isEmpty(); }
+    QString name() const; ///< "XM430-W350 (ID 1)"
+    const ControlTable *table() const { return m_table.get(); }
+
+    /// InvalidArgument names the fields that come nearest.
+    Result<const Field *> field(const QString &name) const;
+
+    Result<Bytes> read(int address, int length);
+    Result<std::int64_t> read(const Field &field);
+
+    /// The field's unit now; reads the registers that decide on it, not those that limit it.
+    EffectiveField units(const Field &field);
+    /// Its unit and its limits now. Registers that can't be read limit nothing: the device itself will refuse.
+    EffectiveField limits(const Field &field);
+
+    /// `field` has or will have this value, whatever was read before.
+    void learn(const Field &field, std::int64_t raw);
+    /// Other registers may have changed with a write: forget what was read.
+    void forget() { m_known.clear(); }
+    /// The device is elsewhere after a change of its ID or baud rate; the line works there.
+    Result<void> follow(const Found &found);
+
+private:
+    std::optional<std::int64_t> lookUp(QStringView name);
+    void setTraits(std::uint8_t statusReturnLevel);
+
+    Bus &m_bus;
+    std::uint8_t m_id;
+    std::uint16_t m_modelNumber = 0;
+    std::uint8_t m_statusReturnLevel = 2;
+    ControlTablePtr m_table;
+    QString m_model;
+    std::map<QString, std::int64_t> m_known; ///< by normalised name
+};
+
+} // namespace dynascope::dxl

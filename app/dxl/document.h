@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QByteArray>
+#include <QString>
+
+namespace dynascope::dxl {
+
+/// One JSON object whose keys stay in the order they were added (QJsonObject sorts them), physical values written as
+/// decimals: 180.0.
+class Document
+{
+public:
+    Document &add(const char *key, const QString &text);
+    Document &add(const char *key, qint64 number);
+    Document &add(const char *key, double number);
+    Document &addFlag(const char *key, bool value);
+
+    QByteArray toJson() const { return '{' + m_members + '}'; }
+
+private:
+    Document &addRaw(const char *key, const QByteArray &json);
+
+    QByteArray m_members;
+};
+
+} // namespace dynascope::dxl

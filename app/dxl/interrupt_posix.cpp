@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/interrupt.h"
+
+#include <csignal>
+
+namespace dynascope::dxl {
+
+struct Interrupt::Signals {
+    sigset_t ending;
+    sigset_t before;
+};
+
+Interrupt::Interrupt()
+    : m_signals(std::make_unique<Signals>())
+{
+    sigemptyset(&m_signals->ending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+        sigaddset(&m_signals->ending, signal);
+    pthread_sigmask(SIG_BLOCK, &m_signals->ending, &m_signals->before);
+}
+
+Interrupt::~Interrupt()
+{
+    pthread_sigmask(SIG_SETMASK, &m_signals->before, nullptr);
+}
+
+void Interrupt::wait()
+{
+    int signal = 0;
+    sigwait(&m_signals->ending, &signal);
+}
+
+} // namespace dynascope::dxl

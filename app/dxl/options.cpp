@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/options.h"
+
+#include "core/protocol/protocol_values.h"
+#include "core/session/scanner.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace dynascope::dxl {
+
+namespace {
+
+/// As typed, before our own languages are read.
+struct Typed {
+    std::string port, bauds, ids = "0-252", devices, link;
+    int baudRate = 57600;
+    int id = 0;
+    bool json = false;
+    bool verbose = false;
+    std::vector<std::string> registers;
+};
+
+constexpr const char *Values =
+    "VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, 50%) or the "
+    "name of an enum value or of bits joined by '+'.";
+
+void describe(CLI::App &app, Typed &typed)
+{
+    app.fallthrough(); // --port may also stand behind the command
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "dxl " DYNASCOPE_VERSION);
+    app.add_option("--port", typed.port, "The line's port: /dev/ttyUSB0")->type_name("PATH");
+    app.add_option("--baud", typed.baudRate, "The line's baud rate, bits per second (57600)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000'000));
+    app.add_flag("--json", typed.json, "One JSON document on standard output");
+    app.add_flag("-v,--verbose", typed.verbose, "Show every packet on standard error");
+    app.footer("Exit code: 0 done, 1 a device or the line failed, 2 wrong usage.");
+
+    CLI::App *scan = app.add_subcommand("scan", "Find the devices on the line");
+    scan->add_option("--bauds", typed.bauds, "Baud rates to try: 57600,1000000 or all (that of --baud)")
+        ->type_name("LIST");
+    scan->add_option("--ids", typed.ids, "IDs to look for (0-252)")->type_name("RANGE");
+
+    const auto forDevice = [&](const char *name, const std::string &text) {
+        CLI::App *command = app.add_subcommand(name, text);
+        command->add_option("ID", typed.id, "The device")->required()->check(CLI::Range(0, int(MaximumId)));
+        return command;
+    };
+    forDevice("ping", "Is a device there, and what is it?");
+    forDevice("read", "Read registers")
+        ->add_option("REGISTER", typed.registers, "FIELD by its name in the control table, or ADDRESS:LENGTH in bytes")
+        ->required();
+    forDevice("write", std::string("Write registers and read them back. ") + Values)
+        ->add_option("ASSIGNMENT", typed.registers, "FIELD=VALUE or ADDRESS:LENGTH=VALUE")
+        ->required();
+
+    CLI::App *sim = app.add_subcommand("sim", "Serve simulated devices on a pseudo-terminal until interrupted; its path "
+                                              "is the first line of standard output");
+    sim->add_option("--devices", typed.devices, "MODEL[/FIRMWARE]@BAUD:ID, joined by commas")
+        ->required()
+        ->type_name("LIST");
+    sim->add_option("--link", typed.link, "Also a symbolic link to the terminal")->type_name("PATH");
+}
+
+Result<Options> understand(const CLI::App &app, const Typed &typed)
+{
+    Options options;
+    const std::string name = app.get_subcommands().front()->get_name();
+    options.command = name == "scan" ? Command::Scan
+        : name == "ping"             ? Command::Ping
+        : name == "read"             ? Command::Read
+        : name == "write"            ? Command::Write
+                                     : Command::Sim;
+    options.port = QString::fromStdString(typed.port);
+    options.baudRate = typed.baudRate;
+    options.json = typed.json;
+    options.verbose = typed.verbose;
+    options.id = static_cast<std::uint8_t>(typed.id);
+    options.devices = QString::fromStdString(typed.devices);
+    options.link = QString::fromStdString(typed.link);
+    if (options.port.isEmpty() && options.command != Command::Sim)
+        return failure(ErrorKind::InvalidArgument, QStringLiteral("%1 needs a port: dxl --port PATH %1")
+                                                       .arg(QString::fromStdString(name)));
+
+    options.bauds = {options.baudRate};
+    if (!typed.bauds.empty()) {
+        const auto bauds = parseBauds(QString::fromStdString(typed.bauds), allBauds());
+        if (!bauds)
+            return tl::unexpected(bauds.error());
+        options.bauds = *bauds;
+    }
+    const auto ids = parseIds(QString::fromStdString(typed.ids));
+    if (!ids)
+        return tl::unexpected(ids.error());
+    options.ids = *ids;
+
+    for (const std::string &text : typed.registers) {
+        const auto argument = options.command == Command::Write ? parseAssignment(QString::fromStdString(text))
+                                                                : parseRegister(QString::fromStdString(text));
+        if (!argument)
+            return tl::unexpected(argument.error());
+        options.registers.push_back(*argument);
+        if (options.command != Command::Write || !argument->isByAddress())
+            continue;
+        if (const auto value = parseRawValue(*argument); !value)
+            return tl::unexpected(value.error());
+    }
+    return options;
+}
+
+} // namespace
+
+tl::expected<Options, ExitCode> parseOptions(int argc, const char *const *argv)
+{
+    CLI::App app("Find, read and write DYNAMIXEL servos (Protocol 2.0).", "dxl");
+    Typed typed;
+    describe(app, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError &error) {
+        const bool wrong = error.get_exit_code() != 0;
+        if (wrong)
+            std::fprintf(stderr, "dxl: %s; dxl --help tells more\n", error.what());
+        else
+            app.exit(error); // --help, --version
+        return tl::unexpected(wrong ? ExitCode::Usage : ExitCode::Done);
+    }
+    const auto options = understand(app, typed);
+    if (!options) {
+        std::fprintf(stderr, "dxl: %s\n", qUtf8Printable(options.error().text));
+        return tl::unexpected(ExitCode::Usage);
+    }
+    return *options;
+}
+
+} // namespace dynascope::dxl

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/commands.h"
+#include "core/bus/operations.h"
+
+namespace dynascope::dxl {
+
+namespace {
+
+void print(const Work &work, const Found &found)
+{
+    const QString model = modelName(work.catalog, found.modelNumber);
+    Document document;
+    document.add("id", qint64(found.id))
+        .add("baud", qint64(found.baudRate))
+        .add("model", model)
+        .add("model_number", qint64(found.modelNumber))
+        .add("firmware", qint64(found.firmware))
+        .addFlag("alert", found.alert);
+    QString text = QStringLiteral("%1 bps, ID %2: %3 (model %4), firmware %5")
+                       .arg(found.baudRate).arg(found.id).arg(model).arg(found.modelNumber).arg(found.firmware);
+    if (found.alert)
+        text += QStringLiteral(", alert: see Hardware Error Status");
+    if (!found.doubt.isEmpty()) {
+        document.add("doubt", found.doubt);
+        text += QStringLiteral("; doubtful: %1").arg(found.doubt);
+    }
+    work.output.result(text, document);
+}
+
+QString names(const std::vector<int> &bauds)
+{
+    QStringList list;
+    for (const int baud : bauds)
+        list.append(QString::number(baud));
+    return list.join(QStringLiteral(", "));
+}
+
+void adviseAfterSilence(const Work &work, const std::vector<int> &tried)
+{
+    const Options &options = work.options;
+    QString text = QStringLiteral("nobody answered at %1 bps, IDs %2 to %3")
+                       .arg(names(tried)).arg(options.ids.first).arg(options.ids.last);
+    text += tried.size() > 1
+        ? QStringLiteral("; is the bus powered and connected?")
+        : QStringLiteral("; to look at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
+    work.output.note(text);
+}
+
+/// Everything at one baud rate; how many were found.
+Result<std::size_t> scanAt(const Work &work, int baud)
+{
+    if (const auto set = work.bus.setBaudRate(baud); !set)
+        return tl::unexpected(set.error());
+    // Printed when the rate is done: what makes an answer doubtful comes after it.
+    const auto found = scanBaud(work.bus, work.options.ids.first, work.options.ids.last, {});
+    if (!found)
+        return tl::unexpected(found.error());
+    for (const Found &device : *found)
+        print(work, device);
+    return found->size();
+}
+
+} // namespace
+
+ExitCode scanCommand(const Work &work)
+{
+    work.output.expectMany();
+    std::vector<int> silent;
+    std::size_t found = 0;
+    bool failed = false;
+    for (const int baud : work.options.bauds) {
+        const auto count = scanAt(work, baud);
+        if (count) {
+            found += *count;
+            if (*count == 0)
+                silent.push_back(baud);
+            continue;
+        }
+        work.output.note(count.error().text);
+        if (count.error().kind == ErrorKind::PortLost)
+            return ExitCode::Failed;
+        // Of several rates nobody expects every port to do each; garbage at one of them doesn't end the search.
+        const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;
+        failed = failed || !unsuitable || work.options.bauds.size() == 1;
+    }
+    if (found == 0 && !failed && !silent.empty())
+        adviseAfterSilence(work, silent);
+    return failed ? ExitCode::Failed : ExitCode::Done;
+}
+
+} // namespace dynascope::dxl

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/window/options.h"
+
+#include "ui/common/icons.h"
+
+#include <QApplication>
+#include <QCommandLineParser>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace dynascope {
+
+void setUpApplication(QApplication &application)
+{
+    QApplication::setOrganizationName(QStringLiteral("dynascope"));
+    QApplication::setApplicationName(QStringLiteral("dynascope"));
+    QApplication::setApplicationDisplayName(QStringLiteral("Dynascope"));
+    QApplication::setApplicationVersion(QStringLiteral(DYNASCOPE_VERSION));
+    QApplication::setDesktopFileName(QStringLiteral("dynascope"));
+    application.setWindowIcon(applicationIcon());
+}
+
+WindowOptions parseOptions(const QApplication &application)
+{
+    QCommandLineParser parser;
+    parser.setApplicationDescription(
+        QStringLiteral("Finds DYNAMIXEL servos (Protocol 2.0) on a serial bus, configures them and plots what they do."));
+    parser.addHelpOption();
+    parser.addVersionOption();
+    const QCommandLineOption port(QStringLiteral("port"),
+                                  QStringLiteral("Open this port: a path, or \"sim\" for the simulated bus."),
+                                  QStringLiteral("PORT"));
+    const QCommandLineOption baud(QStringLiteral("baud"), QStringLiteral("The line's baud rate, bits per second."),
+                                  QStringLiteral("RATE"));
+    QCommandLineOption picture(
+        QStringLiteral("offscreen-picture"),
+        QStringLiteral("Render the window without a screen for a few seconds, save FILE as PNG and end."),
+        QStringLiteral("FILE"));
+    QCommandLineOption pictures(QStringLiteral("screenshots"),
+                                QStringLiteral("Write the pictures of the documents into FOLDER and end."),
+                                QStringLiteral("FOLDER"));
+    pictures.setFlags(QCommandLineOption::HiddenFromHelp);
+    parser.addOptions({port, baud, picture, pictures});
+    parser.process(application);
+
+    WindowOptions options;
+    options.port = parser.value(port);
+    options.picture = parser.value(picture);
+    options.pictureDirectory = parser.value(pictures);
+    if (parser.isSet(baud)) {
+        bool isNumber = false;
+        options.baudRate = parser.value(baud).toInt(&isNumber);
+        if (!isNumber || options.baudRate <= 0) {
+            std::fprintf(stderr, "dynascope: --baud takes bits per second, not \"%s\"\n",
+                         qPrintable(parser.value(baud)));
+            std::exit(2);
+        }
+    }
+    if (!parser.positionalArguments().isEmpty()) {
+        std::fprintf(stderr, "dynascope: \"%s\" is not an option; a port is named with --port\n",
+                     qPrintable(parser.positionalArguments().constFirst()));
+        std::exit(2);
+    }
+    return options;
+}
+
+} // namespace dynascope

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/window/workshop.h"
+
+#include <QApplication>
+#include <QSettings>
+
+namespace dynascope {
+namespace {
+
+Catalog loadCatalog()
+{
+    auto catalog = Catalog::builtIn();
+    // The tables are part of the program and tested with it: a damaged one is a damaged program.
+    if (!catalog)
+        qFatal("%s", qPrintable(catalog.error().text));
+    return std::move(*catalog);
+}
+
+ColorScheme storedScheme()
+{
+    const QString stored = QSettings().value(QStringLiteral("window/scheme")).toString();
+    if (stored == QLatin1String("light"))
+        return ColorScheme::Light;
+    return stored == QLatin1String("dark") ? ColorScheme::Dark : ColorScheme::System;
+}
+
+QString schemeName(ColorScheme scheme)
+{
+    switch (scheme) {
+    case ColorScheme::Light: return QStringLiteral("light");
+    case ColorScheme::Dark: return QStringLiteral("dark");
+    case ColorScheme::System: break;
+    }
+    return QStringLiteral("system");
+}
+
+} // namespace
+
+Workshop::Workshop(QApplication &application, const WindowOptions &options)
+    : m_application(application)
+    , m_catalog(loadCatalog())
+    , m_lines(m_catalog)
+    , m_session(m_lines, m_catalog)
+    , m_commands(m_session)
+    , m_monitor(m_session)
+    , m_stop(m_session, m_commands)
+{
+    applyTheme(m_application, storedScheme());
+    m_window = std::make_unique<MainWindow>(
+        Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines});
+    QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
+                     [this](ColorScheme scheme) { applyScheme(scheme); });
+    QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {
+        if (sim::Demo *demo = m_lines.demo())
+            demo->resume();
+    });
+    Q_UNUSED(options)
+}
+
+Workshop::~Workshop() = default;
+
+void Workshop::applyScheme(ColorScheme scheme)
+{
+    applyTheme(m_application, scheme);
+    QSettings().setValue(QStringLiteral("window/scheme"), schemeName(scheme));
+}
+
+} // namespace dynascope

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/window/lines.h"
+#include "app/window/options.h"
+#include "core/session/scanner.h"
+#include "core/session/stopcontrol.h"
+#include "core/session/monitor.h"
+#include "ui/mainwindow.h"
+
+class QApplication;
+
+namespace dynascope {
+
+/// Everything the window works with, made in the order it needs and unmade in reverse. GUI thread; one a process, owned by
+/// main or by a test.
+class Workshop
+{
+public:
+    Workshop(QApplication &application, const WindowOptions &options);
+    ~Workshop();
+
+    Session &session() { return m_session; }
+    Commands &commands() { return m_commands; }
+    Monitor &monitor() { return m_monitor; }
+    Scanner &scanner() { return m_scanner; }
+    StopControl &stop() { return m_stop; }
+    Lines &lines() { return m_lines; }
+    MainWindow &window() { return *m_window; }
+
+    void applyScheme(ColorScheme scheme); ///< and remembers it
+
+private:
+    QApplication &m_application;
+    Catalog m_catalog;
+    Lines m_lines;
+    Session m_session;
+    Commands m_commands;
+    Monitor m_monitor;
+    Scanner m_scanner;
+    StopControl m_stop;
+    std::unique_ptr<MainWindow> m_window;
+};
+
+} // namespace dynascope

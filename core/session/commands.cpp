@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Registers: writing, reading, torque, LED. What moves a device or makes it reboot is in placecommands.cpp.
+#include "core/session/commands.h"
+
+#include "core/table/units.h"
+
+#include <algorithm>
+#include <set>
+
+namespace dynascope {
+namespace {
+
+constexpr int LargestGap = 8; ///< bytes that are cheaper to read through than to ask again
+
+bool isGoal(const Field &field)
+{
+    return field.name.startsWith(QLatin1String("Goal "));
+}
+
+/// What a write to this field may have moved: the registers it resets, or nothing.
+std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
+{
+    if (field.name == QLatin1String("Torque Enable")) {
+        return spansOf(device, [](const Field &other) { return isGoal(other); });
+    }
+    if (field.resets.isEmpty())
+        return {};
+    return spansOf(device, [&field](const Field &other) { return field.resets.contains(other.name); });
+}
+
+} // namespace
+
+DevicePlace placeOf(const Device &device)
+{
+    DevicePlace place;
+    place.id = device.id();
+    place.baudRate = device.baudRate();
+    place.modelNumber = static_cast<std::uint16_t>(device.modelNumber());
+    place.name = device.displayName();
+    if (const Field *torque = device.table().find(u"Torque Enable"))
+        place.torqueAddress = torque->address;
+    return place;
+}
+
+std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
+{
+    std::vector<Span> spans;
+    for (const Field &field : device.table().fields()) {
+        if (!wanted(field))
+            continue;
+        if (!spans.empty()) {
+            Span &last = spans.back();
+            const int end = last.address + last.length;
+            if (field.address - end <= LargestGap && field.end() - last.address <= longest) {
+                last.length = static_cast<std::uint16_t>(field.end() - last.address);
+                continue;
+            }
+        }
+        spans.push_back({device.id(), field.address, field.size});
+    }
+    return spans;
+}
+
+Commands::Commands(Session &session, QObject *parent)
+    : QObject(parent)
+    , m_session(session)
+{
+}
+
+void Commands::refuse(Device *device, const Error &error, const Done &done)
+{
+    if (error.kind != ErrorKind::Cancelled)
+        emit failed(device, error);
+    if (done)
+        done(tl::unexpected(error));
+}
+
+Commands::Done Commands::reporting(Device &device, const QString &success, Done done)
+{
+    return [this, key = device.key(), success, done = std::move(done)](const Result<void> &result) {
+        Device *present = m_session.device(key);
+        if (!result)
+            return refuse(present, result.error(), done);
+        if (present)
+            emit succeeded(present, success);
+        if (done)
+            done(result);
+    };
+}
+
+Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const
+{
+    const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
+    if (m_stopped && (isGoal(field) || (field.name == QLatin1String("Torque Enable") && raw != 0)))
+        return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
+    const QString lock = device.lockReason(fieldIndex);
+    if (!lock.isEmpty())
+        return failure(ErrorKind::InvalidArgument, lock);
+    return checkRange(field, device.effective(fieldIndex), raw);
+}
+
+void Commands::writeField(Device &device, int fieldIndex, std::int64_t raw, Done done)
+{
+    if (const auto allowed = checkWrite(device, fieldIndex, raw); !allowed)
+        return refuse(&device, allowed.error(), done);
+    const auto onItsWay = m_writes.find({device.key(), fieldIndex});
+    if (onItsWay == m_writes.end())
+        return sendWrite(device, fieldIndex, raw, std::move(done));
+    std::optional<Waiting> &slot = onItsWay->second;
+    if (slot && slot->done)
+        slot->done(failure(ErrorKind::Cancelled, tr("A newer value took its place")));
+    slot = Waiting{raw, std::move(done)};
+    device.setPending(fieldIndex, raw);
+}
+
+void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done)
+{
+    const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
+    m_writes[{device.key(), fieldIndex}] = std::nullopt;
+    device.setPending(fieldIndex, raw);
+    WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
+                        sideEffectsOf(device, field)};
+    device.line()->bus().run<std::vector<PollValue>>(
+        Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
+        [this, key = device.key(), fieldIndex, done = std::move(done)](const Result<std::vector<PollValue>> &values) {
+            finishWrite(key, fieldIndex, values, done);
+        });
+}
+
+void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vector<PollValue>> &values, const Done &done)
+{
+    const auto onItsWay = m_writes.find({key, fieldIndex});
+    std::optional<Waiting> next = onItsWay == m_writes.end() ? std::nullopt : std::move(onItsWay->second);
+    if (onItsWay != m_writes.end())
+        m_writes.erase(onItsWay);
+
+    Device *device = m_session.device(key);
+    if (device && values) {
+        device->clearPending(fieldIndex);
+        for (const PollValue &value : *values)
+            device->take(value);
+    } else if (device) {
+        device->setFailed(fieldIndex, values.error().text);
+    }
+    if (values) {
+        if (done)
+            done({});
+    } else {
+        refuse(device, values.error(), done);
+    }
+    if (!next)
+        return;
+    if (!device)
+        return refuse(nullptr, {ErrorKind::Cancelled, tr("The device is gone")}, next->done);
+    writeField(*device, fieldIndex, next->raw, std::move(next->done));
+}
+
+void Commands::readAll(Device &device, Done done)
+{
+    ReadSpansPlan plan{placeOf(device), spansOf(device, [](const Field &) { return true; })};
+    device.line()->bus().run<std::vector<PollValue>>(
+        Priority::Normal, this, [plan = std::move(plan)](JobContext &context) { return readSpans(context, plan); },
+        [this, key = device.key(), done = std::move(done)](const Result<std::vector<PollValue>> &values) {
+            Device *present = m_session.device(key);
+            if (!values)
+                return refuse(present, values.error(), done);
+            if (present) {
+                for (const PollValue &value : *values)
+                    present->take(value);
+            }
+            if (done)
+                done({});
+        });
+}
+
+void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done done)
+{
+    if (on && m_stopped) {
+        return refuse(devices.empty() ? nullptr : devices.front(),
+                      {ErrorKind::Stopped, tr("STOP is held: release it before anything moves again")}, done);
+    }
+    // One job per line and baud rate; `done` comes once, after the last, with the first failure there was.
+    struct Outcome {
+        int jobs = 0;
+        Result<void> result;
+        Done done;
+    };
+    auto outcome = std::make_shared<Outcome>();
+    outcome->done = std::move(done);
+    std::map<std::pair<LineSession *, int>, std::vector<Device *>> groups;
+    for (Device *device : devices) {
+        if (device->table().find(u"Torque Enable"))
+            groups[{device->line(), device->baudRate()}].push_back(device);
+    }
+    outcome->jobs = static_cast<int>(groups.size());
+    if (groups.empty() && outcome->done)
+        outcome->done({});
+    for (const auto &[where, members] : groups) {
+        std::vector<TorqueEntry> entries;
+        std::vector<DeviceKey> keys;
+        for (const Device *device : members) {
+            entries.push_back({device->id(), placeOf(*device).torqueAddress});
+            keys.push_back(device->key());
+        }
+        const auto finished = [this, outcome, keys, on](const Result<std::vector<Result<void>>> &results) {
+            for (std::size_t i = 0; i < keys.size(); ++i) {
+                Device *device = m_session.device(keys[i]);
+                const Result<void> one = results ? (*results)[i] : tl::unexpected(results.error());
+                if (!one) {
+                    outcome->result = one;
+                    emit failed(device, one.error());
+                } else if (device) {
+                    PollValue value;
+                    value.address = placeOf(*device).torqueAddress;
+                    value.data = {static_cast<std::uint8_t>(on ? 1 : 0)};
+                    value.at = std::chrono::steady_clock::now().time_since_epoch();
+                    device->take(value);
+                }
+            }
+            if (--outcome->jobs == 0 && outcome->done)
+                outcome->done(outcome->result);
+        };
+        where.first->bus().run<std::vector<Result<void>>>(
+            Priority::Click, this,
+            [entries, on, baud = where.second](JobContext &context) {
+                return dynascope::setTorque(context, baud, entries, on);
+            },
+            finished);
+    }
+}
+
+void Commands::setLed(Device &device, bool on, Done done)
+{
+    const int led = device.table().indexOf(u"LED");
+    if (led < 0) {
+        return refuse(&device, {ErrorKind::NotSupported, tr("%1 has no LED").arg(device.displayName())}, done);
+    }
+    writeField(device, led, on ? 1 : 0, std::move(done));
+}
+
+} // namespace dynascope

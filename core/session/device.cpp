@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/device.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+
+namespace dynascope {
+
+Device::Device(DeviceKey key, LineSession *line, ControlTablePtr table, const Found &found)
+    : m_key(key)
+    , m_line(line)
+    , m_table(std::move(table))
+    , m_found(found)
+    , m_values(m_table->fields().size())
+{
+}
+
+QString Device::displayName() const
+{
+    return m_nickname.isEmpty() ? QStringLiteral("%1 #%2").arg(model()).arg(id()) : m_nickname;
+}
+
+Traits Device::traits() const
+{
+    Traits traits;
+    traits.id = m_found.id;
+    traits.baudRate = m_found.baudRate;
+    if (const auto delay = raw(u"Return Delay Time"))
+        traits.returnDelay = std::chrono::microseconds(*delay * 2 + 8);
+    if (const auto level = raw(u"Status Return Level"))
+        traits.statusReturnLevel = static_cast<std::uint8_t>(*level);
+    traits.fastReads = m_table->hasFastReads(m_found.firmware);
+    return traits;
+}
+
+std::optional<std::int64_t> Device::raw(QStringView fieldName) const
+{
+    const int index = m_table->indexOf(fieldName);
+    return index < 0 ? std::nullopt : value(index).raw;
+}
+
+EffectiveField Device::effective(int fieldIndex) const
+{
+    return dynascope::effective(m_table->fields()[static_cast<std::size_t>(fieldIndex)],
+                                [this](QStringView name) { return raw(name); });
+}
+
+QString Device::lockReason(int fieldIndex) const
+{
+    const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
+    if (!field.isWritable())
+        return tr("%1 is read-only.").arg(field.name);
+    if (m_state == State::Silent)
+        return tr("%1 does not answer.").arg(displayName());
+    if (m_state == State::Rebooting)
+        return tr("%1 is rebooting.").arg(displayName());
+    if (field.needsTorqueOff() && isTorqueOn())
+        return tr("%1 is in the EEPROM area, which the servo locks while its torque is on.").arg(field.name);
+    return {};
+}
+
+void Device::setNickname(const QString &name)
+{
+    if (m_nickname == name)
+        return;
+    m_nickname = name;
+    emit attributesChanged();
+}
+
+void Device::setFound(const Found &found)
+{
+    if (m_found == found)
+        return;
+    m_found = found;
+    emit attributesChanged();
+}
+
+void Device::setState(State state)
+{
+    if (m_state == state)
+        return;
+    m_state = state;
+    if (state == State::Silent || state == State::Rebooting)
+        setAllStale();
+    emit attributesChanged();
+}
+
+void Device::setAlert(bool alert)
+{
+    if (m_alert == alert)
+        return;
+    m_alert = alert;
+    emit attributesChanged();
+}
+
+void Device::setHeard(LineTime at)
+{
+    m_lastHeard = std::max(m_lastHeard, at);
+}
+
+void Device::take(const PollValue &value)
+{
+    const int begin = value.address;
+    const int end = begin + static_cast<int>(value.data.size());
+    const ByteView bytes = value.data;
+    int first = -1;
+    int last = -1;
+    const std::span<const Field> fields = m_table->fields();
+    auto field = std::ranges::lower_bound(fields, begin, {}, &Field::address);
+    for (; field != fields.end() && field->end() <= end; ++field) {
+        const auto index = static_cast<int>(field - fields.begin());
+        FieldValue &now = m_values[static_cast<std::size_t>(index)];
+        const std::int64_t raw = rawFromBytes(*field, bytes.subspan(static_cast<std::size_t>(field->address - begin)));
+        const FieldState state = now.state == FieldState::Pending ? FieldState::Pending : FieldState::Fresh;
+        const bool changed = now.raw != raw || now.state != state;
+        now.raw = raw;
+        now.at = value.at;
+        now.state = state;
+        now.error.clear();
+        if (!changed)
+            continue;
+        first = first < 0 ? index : first;
+        last = index;
+    }
+    setHeard(value.at);
+    if (first >= 0)
+        emit fieldsChanged(first, last);
+}
+
+void Device::setPending(int fieldIndex, std::int64_t raw)
+{
+    FieldValue &value = m_values[static_cast<std::size_t>(fieldIndex)];
+    value.pending = raw;
+    value.state = FieldState::Pending;
+    value.error.clear();
+    emit fieldsChanged(fieldIndex, fieldIndex);
+}
+
+void Device::clearPending(int fieldIndex)
+{
+    FieldValue &value = m_values[static_cast<std::size_t>(fieldIndex)];
+    value.pending.reset();
+    if (value.state == FieldState::Pending)
+        value.state = value.raw ? FieldState::Fresh : FieldState::Unknown;
+    emit fieldsChanged(fieldIndex, fieldIndex);
+}
+
+void Device::setFailed(int fieldIndex, const QString &error)
+{
+    FieldValue &value = m_values[static_cast<std::size_t>(fieldIndex)];
+    value.pending.reset();
+    value.state = FieldState::Failed;
+    value.error = error;
+    emit fieldsChanged(fieldIndex, fieldIndex);
+}
+
+void Device::setAllStale()
+{
+    for (FieldValue &value : m_values) {
+        if (value.state == FieldState::Fresh)
+            value.state = FieldState::Stale;
+    }
+    if (!m_values.empty())
+        emit fieldsChanged(0, static_cast<int>(m_values.size()) - 1);
+}
+
+} // namespace dynascope

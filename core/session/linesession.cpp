@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/linesession.h"
+
+#include "core/table/catalog.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace dynascope {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int SilentAfter = 3; ///< poll answers missing in a row before a device is called silent
+constexpr auto MeasureInterval = 1s;
+
+LineTime monotonicNow()
+{
+    return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+ControlTablePtr tableOf(const Catalog &catalog, const Found &found)
+{
+    if (ControlTablePtr table = catalog.find(found.modelNumber, found.firmware))
+        return table;
+    ControlTable::Description unknown;
+    unknown.modelNumber = found.modelNumber;
+    unknown.model = modelName(catalog, found.modelNumber);
+    return std::make_shared<const ControlTable>(std::move(unknown));
+}
+
+} // namespace
+
+LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog,
+                         DeviceKey &nextKey, QObject *parent)
+    : QObject(parent)
+    , m_factory(factory)
+    , m_catalog(catalog)
+    , m_nextKey(nextKey)
+{
+    connect(&m_rateTimer, &QTimer::timeout, this, &LineSession::measureRates);
+    m_rateTimer.start(MeasureInterval);
+    startThread(name, baudRate);
+}
+
+LineSession::~LineSession() = default;
+
+void LineSession::startThread(const QString &name, int baudRate)
+{
+    m_thread.reset();
+    m_thread = std::make_unique<BusThread>(m_factory, name, baudRate);
+    m_sinceMeasured.start();
+    m_busyAtMeasure = {};
+    connect(m_thread.get(), &BusThread::stateChanged, this, &LineSession::onThreadState);
+    connect(m_thread.get(), &BusThread::batchesReady, this, &LineSession::takeBatches);
+}
+
+void LineSession::reopen()
+{
+    startThread(name(), baudRate());
+    emit stateChanged();
+}
+
+void LineSession::onThreadState()
+{
+    if (state() != BusThread::State::Open) {
+        m_cycleRate = 0;
+        m_busLoad = 0;
+        for (const auto &device : m_devices)
+            device->setAllStale();
+        emit rateChanged();
+    }
+    emit stateChanged();
+}
+
+Device *LineSession::device(DeviceKey key) const
+{
+    const auto at = std::ranges::find_if(m_devices, [key](const auto &device) { return device->key() == key; });
+    return at == m_devices.end() ? nullptr : at->get();
+}
+
+Device *LineSession::deviceAt(std::uint8_t id, int baudRate) const
+{
+    const auto at = std::ranges::find_if(
+        m_devices, [=](const auto &device) { return device->id() == id && device->baudRate() == baudRate; });
+    return at == m_devices.end() ? nullptr : at->get();
+}
+
+Device &LineSession::heard(const Found &found)
+{
+    Device *known = deviceAt(found.id, found.baudRate);
+    if (known && (known->modelNumber() != found.modelNumber || known->firmware() != found.firmware)) {
+        forget(known->key()); // another servo stands there now
+        known = nullptr;
+    }
+    if (known) {
+        known->setFound(found);
+    } else {
+        auto device = std::make_unique<Device>(m_nextKey++, this, tableOf(m_catalog, found), found);
+        known = device.get();
+        connect(known, &Device::attributesChanged, this, [this, known] { emit deviceChanged(known); });
+        const auto before = [](const auto &a, const auto &b) {
+            return std::pair(a->baudRate(), a->id()) < std::pair(b->baudRate(), b->id());
+        };
+        m_devices.insert(std::ranges::upper_bound(m_devices, device, before), std::move(device));
+        park(*known);
+        emit deviceAdded(known);
+    }
+    m_failures[known->key()] = 0;
+    known->setHeard(monotonicNow());
+    known->setAlert(found.alert);
+    park(*known);
+    return *known;
+}
+
+void LineSession::park(Device &device)
+{
+    device.setState(device.baudRate() == baudRate() ? Device::State::Present : Device::State::Parked);
+}
+
+void LineSession::moveDevice(Device &device, const Found &found)
+{
+    Device *other = deviceAt(found.id, found.baudRate);
+    if (other && other != &device)
+        forget(other->key()); // an entry left behind: what stands there now is this device
+    m_failures[device.key()] = 0;
+    device.setFound(found);
+    device.setHeard(monotonicNow());
+    park(device);
+}
+
+void LineSession::forget(DeviceKey key)
+{
+    const auto at = std::ranges::find_if(m_devices, [key](const auto &device) { return device->key() == key; });
+    if (at == m_devices.end())
+        return;
+    emit deviceAboutToBeRemoved(at->get());
+    m_failures.erase(key);
+    m_devices.erase(at);
+}
+
+void LineSession::setWorkingBaudRate(int bitsPerSecond)
+{
+    m_thread->setWorkingBaudRate(bitsPerSecond);
+    for (const auto &device : m_devices)
+        park(*device);
+    emit stateChanged();
+}
+
+void LineSession::takeBatches()
+{
+    for (const Batch &batch : m_thread->takeBatches()) {
+        take(batch);
+        emit batchTaken(batch);
+    }
+}
+
+void LineSession::take(const Batch &batch)
+{
+    if (batch.fullRate)
+        ++m_fullRateCycles;
+    for (const PollValue &value : batch.values) {
+        Device *device = this->device(value.device);
+        if (!device)
+            continue; // gone since the cycle ran
+        if (value.data.empty()) {
+            countFailure(*device, value.error);
+            continue;
+        }
+        m_failures[device->key()] = 0;
+        device->setAlert(value.alert);
+        if (device->state() == Device::State::Silent)
+            park(*device);
+        device->take(value);
+    }
+}
+
+void LineSession::countFailure(Device &device, const Error &error)
+{
+    if (error.kind == ErrorKind::Refused || error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled)
+        return; // it is there, or nobody waited for it
+    if (++m_failures[device.key()] >= SilentAfter && device.state() == Device::State::Present)
+        device.setState(Device::State::Silent);
+}
+
+void LineSession::measureRates()
+{
+    const double seconds = static_cast<double>(m_sinceMeasured.nsecsElapsed()) * 1e-9;
+    if (seconds <= 0 || state() != BusThread::State::Open)
+        return;
+    const LineTime busy = m_thread->statistics().busy;
+    m_busLoad = std::clamp(std::chrono::duration<double>(busy - m_busyAtMeasure).count() / seconds, 0.0, 1.0);
+    m_cycleRate = m_fullRateCycles / seconds;
+    m_busyAtMeasure = busy;
+    m_fullRateCycles = 0;
+    m_sinceMeasured.restart();
+    emit rateChanged();
+}
+
+} // namespace dynascope

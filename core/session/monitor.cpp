@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/monitor.h"
+
+#include "core/session/watchplan.h"
+
+#include <algorithm>
+
+namespace dynascope {
+
+Monitor::Monitor(Session &session, QObject *parent)
+    : QObject(parent)
+    , m_session(session)
+{
+    // Whatever changes in a burst (a scan finding ten servos) is planned once.
+    m_replanTimer.setSingleShot(true);
+    m_replanTimer.setInterval(0);
+    connect(&m_replanTimer, &QTimer::timeout, this, &Monitor::replan);
+    connect(&session, &Session::lineAdded, this, &Monitor::follow);
+    connect(&session, &Session::deviceAdded, this, &Monitor::replanSoon);
+    connect(&session, &Session::deviceAboutToBeRemoved, this, &Monitor::drop);
+    for (const auto &line : session.lines())
+        follow(line.get());
+}
+
+void Monitor::follow(LineSession *line)
+{
+    connect(line, &LineSession::stateChanged, this, &Monitor::replanSoon);
+    connect(line, &LineSession::deviceChanged, this, &Monitor::replanSoon);
+    connect(line, &LineSession::batchTaken, this, &Monitor::record);
+    replanSoon();
+}
+
+void Monitor::drop(Device *device)
+{
+    std::erase_if(m_watches, [device](const Watch &watch) { return watch.device == device->key(); });
+    std::erase_if(m_histories, [device](const auto &entry) { return entry.first.device == device->key(); });
+    std::erase(m_selected, device->key());
+    replanSoon();
+    emit watchesChanged();
+}
+
+void Monitor::watch(const Watch &watch)
+{
+    if (!m_watches.insert(watch).second)
+        return;
+    replanSoon();
+    emit watchesChanged();
+}
+
+void Monitor::unwatch(const Watch &watch)
+{
+    if (m_watches.erase(watch) == 0)
+        return;
+    replanSoon();
+    emit watchesChanged();
+}
+
+void Monitor::select(const std::vector<Device *> &devices)
+{
+    m_selected.clear();
+    for (const Device *device : devices)
+        m_selected.push_back(device->key());
+    replanSoon();
+}
+
+const History *Monitor::history(const Watch &watch) const
+{
+    const auto at = m_histories.find(watch);
+    return at == m_histories.end() ? nullptr : &at->second;
+}
+
+void Monitor::clear()
+{
+    std::erase_if(m_histories, [this](const auto &entry) { return !m_watches.contains(entry.first); });
+    for (auto &entry : m_histories)
+        entry.second = History();
+}
+
+void Monitor::setPaused(bool paused)
+{
+    m_paused = paused;
+    replanSoon();
+}
+
+void Monitor::replanSoon()
+{
+    if (!m_replanTimer.isActive())
+        m_replanTimer.start();
+}
+
+void Monitor::replan()
+{
+    for (const auto &line : m_session.lines()) {
+        std::vector<DeviceWatches> devices;
+        for (const auto &device : line->devices()) {
+            if (m_paused)
+                break;
+            DeviceWatches watches{device.get(), {}, std::ranges::find(m_selected, device->key()) != m_selected.end()};
+            for (auto at = m_watches.lower_bound({device->key(), 0});
+                 at != m_watches.end() && at->device == device->key(); ++at)
+                watches.fields.push_back(at->field);
+            devices.push_back(std::move(watches));
+        }
+        PollPlan plan = planWatches(devices);
+        PollPlan &sent = m_sentPlans[&line->bus()];
+        if (plan == sent)
+            continue;
+        sent = plan;
+        line->bus().setPollPlan(std::move(plan));
+    }
+    std::erase_if(m_sentPlans, [this](const auto &entry) {
+        return std::ranges::none_of(m_session.lines(),
+                                    [&entry](const auto &line) { return &line->bus() == entry.first; });
+    });
+}
+
+void Monitor::record(const Batch &batch)
+{
+    for (const PollValue &value : batch.values) {
+        const Device *device = m_session.device(value.device);
+        if (!device)
+            continue;
+        const int end = value.address + static_cast<int>(value.data.size());
+        for (auto at = m_watches.lower_bound({value.device, 0}); at != m_watches.end() && at->device == value.device;
+             ++at) {
+            const Field &field = device->table().fields()[static_cast<std::size_t>(at->field)];
+            if (value.data.empty()) {
+                if (field.address >= value.address && field.address < value.address + value.length)
+                    m_histories[*at].appendGap(value.at);
+            } else if (field.address >= value.address && field.end() <= end) {
+                const auto offset = static_cast<std::size_t>(field.address - value.address);
+                const std::int64_t raw = rawFromBytes(field, ByteView(value.data).subspan(offset));
+                m_histories[*at].append(value.at, static_cast<std::int32_t>(raw));
+            }
+        }
+    }
+}
+
+} // namespace dynascope

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands after which a device stands elsewhere, or is gone for a moment.
+#include "core/session/commands.h"
+
+#include "core/session/procedures/atbaud.h"
+
+#include <QTimer>
+
+#include <algorithm>
+#include <chrono>
+
+namespace dynascope {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto BootTime = 450ms;    ///< most are back after 0.4 s
+constexpr int ReturnAttempts = 8;   ///< some take up to 3 s
+
+} // namespace
+
+void Commands::runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done)
+{
+    device.line()->bus().run<void>(
+        Priority::Click, this,
+        [place = placeOf(device), operation = std::move(operation)](JobContext &context) {
+            return atPlace(context, place, operation);
+        },
+        std::move(done));
+}
+
+void Commands::ping(Device &device, Done done)
+{
+    device.line()->bus().run<Found>(
+        Priority::Click, this, [place = placeOf(device)](JobContext &context) { return look(context, place); },
+        [this, key = device.key(), done = std::move(done)](const Result<Found> &found) {
+            Device *present = m_session.device(key);
+            if (!found) {
+                if (present && found.error().kind != ErrorKind::Cancelled && found.error().kind != ErrorKind::Stopped)
+                    present->setState(Device::State::Silent);
+                return refuse(present, found.error(), done);
+            }
+            if (present)
+                present->line()->heard(*found);
+            if (done)
+                done({});
+        });
+}
+
+void Commands::reboot(Device &device, Done done)
+{
+    const DevicePlace place = placeOf(device);
+    auto report = reporting(device, tr("%1 has rebooted; its RAM is back to defaults").arg(place.name), std::move(done));
+    auto sent = [this, key = device.key(), place, report](const Result<void> &result) {
+        // The status of Reboot may be missing: only a refusal or a lost port ends it here.
+        if (!result && result.error().kind != ErrorKind::NothingReceived && result.error().kind != ErrorKind::CutOff)
+            return report(result);
+        if (Device *present = m_session.device(key))
+            present->setState(Device::State::Rebooting);
+        awaitReturn(key, place, ReturnAttempts, report);
+    };
+    runAt(device, [id = device.id()](Bus &bus) { return dynascope::reboot(bus, id); }, sent);
+}
+
+void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done)
+{
+    QTimer::singleShot(BootTime, this, [this, key, place, attempts, done = std::move(done)] {
+        Device *device = m_session.device(key);
+        if (!device) {
+            done(failure(ErrorKind::Cancelled, tr("The device is gone")));
+            return;
+        }
+        device->line()->bus().run<Found>(
+            Priority::Click, this, [place](JobContext &context) { return look(context, place); },
+            [this, key, place, attempts, done](const Result<Found> &found) {
+                Device *present = m_session.device(key);
+                if (found && present) {
+                    moved(key, *found);
+                    readAll(*present, done);
+                } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
+                    if (present)
+                        present->setState(Device::State::Silent);
+                    done(tl::unexpected(found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error()));
+                } else {
+                    awaitReturn(key, place, attempts - 1, done);
+                }
+            });
+    });
+}
+
+void Commands::moved(DeviceKey key, const Found &found)
+{
+    if (Device *device = m_session.device(key))
+        device->line()->moveDevice(*device, found);
+}
+
+void Commands::factoryReset(Device &device, ResetOption option, Done done)
+{
+    FactoryResetPlan plan{placeOf(device), option, placeOf(device)};
+    const Field *id = device.table().find(u"ID");
+    const Field *baud = device.table().find(u"Baud Rate");
+    if (!id || !baud) {
+        return refuse(&device,
+                      {ErrorKind::NotSupported,
+                       tr("It isn't known where %1 would be after a reset").arg(device.displayName())},
+                      done);
+    }
+    if (option == ResetOption::All)
+        plan.after.id = static_cast<std::uint8_t>(id->initial.value_or(1));
+    if (option != ResetOption::AllButIdAndBaud)
+        plan.after.baudRate = device.table().baudRate(static_cast<int>(baud->initial.value_or(1))).value_or(57600);
+
+    auto report = reporting(device,
+                            tr("%1 is reset; it is now ID %2 at %3 bps")
+                                .arg(plan.place.name)
+                                .arg(plan.after.id)
+                                .arg(plan.after.baudRate),
+                            std::move(done));
+    device.line()->bus().run<void>(
+        Priority::Click, this, [plan](JobContext &context) { return resetToFactory(context, plan); },
+        [this, key = device.key(), after = plan.after, report](const Result<void> &result) {
+            if (!result)
+                return report(result);
+            if (Device *present = m_session.device(key))
+                present->setState(Device::State::Rebooting);
+            awaitReturn(key, after, ReturnAttempts, report);
+        });
+}
+
+void Commands::clearMultiTurn(Device &device, Done done)
+{
+    auto report = reporting(device, tr("%1: multi-turn position cleared").arg(device.displayName()), std::move(done));
+    runAt(device, [id = device.id()](Bus &bus) { return dynascope::clear(bus, id, ClearOption::Position); }, report);
+}
+
+void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done)
+{
+    const Field *field = device.table().find(u"ID");
+    const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
+    if (!field)
+        return invalid(tr("The table of %1 has no ID register").arg(device.displayName()));
+    if (newId < 0 || newId > MaximumId)
+        return invalid(tr("An ID is 0 to %1, not %2").arg(MaximumId).arg(newId));
+    if (newId == device.id())
+        return invalid(tr("%1 has that ID already").arg(device.displayName()));
+    for (const auto &other : device.line()->devices()) {
+        if (other.get() == &device || other->baudRate() != device.baudRate())
+            continue;
+        if (other->id() == newId)
+            return invalid(tr("ID %1 is taken by %2").arg(newId).arg(other->displayName()));
+        if (other->raw(u"Secondary ID") == newId)
+            return invalid(tr("ID %1 is the Secondary ID of %2").arg(newId).arg(other->displayName()));
+    }
+    ChangeIdPlan plan{placeOf(device), static_cast<std::uint8_t>(newId), field->address, turnTorqueOff};
+    auto report = reporting(device, tr("%1 now has ID %2").arg(device.displayName()).arg(newId), std::move(done));
+    device.line()->bus().run<Found>(
+        Priority::Click, this,
+        [plan = std::move(plan)](JobContext &context) { return dynascope::changeId(context, plan); },
+        [this, key = device.key(), report](const Result<Found> &found) {
+            if (!found)
+                return report(tl::unexpected(found.error()));
+            moved(key, *found);
+            if (Device *present = m_session.device(key))
+                readAll(*present);
+            report({});
+        });
+}
+
+void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done done)
+{
+    const Field *field = device.table().find(u"Baud Rate");
+    const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
+    if (newBaud == device.baudRate())
+        return invalid(tr("%1 works at that baud rate already").arg(device.displayName()));
+    const std::optional<int> code = device.table().baudCode(newBaud);
+    if (!field || !code)
+        return invalid(tr("%1 does not offer %2 bps").arg(device.model()).arg(newBaud));
+    if (const Device *other = device.line()->deviceAt(device.id(), newBaud))
+        return invalid(tr("ID %1 at %2 bps is taken by %3").arg(device.id()).arg(newBaud).arg(other->displayName()));
+
+    ChangeBaudPlan plan{placeOf(device), newBaud, static_cast<std::uint8_t>(*code), field->address, turnTorqueOff};
+    auto report = reporting(device, tr("%1 now works at %2 bps").arg(device.displayName()).arg(newBaud), std::move(done));
+    device.line()->bus().run<Found>(
+        Priority::Click, this,
+        [plan = std::move(plan)](JobContext &context) { return dynascope::changeBaud(context, plan); },
+        [this, key = device.key(), report](const Result<Found> &found) {
+            if (!found)
+                return report(tl::unexpected(found.error()));
+            moved(key, *found);
+            if (Device *present = m_session.device(key)) {
+                LineSession *line = present->line();
+                const bool alone = std::ranges::none_of(line->devices(), [](const auto &each) {
+                    return each->state() == Device::State::Present;
+                });
+                if (alone)
+                    line->setWorkingBaudRate(found->baudRate);
+                readAll(*present);
+            }
+            report({});
+        });
+}
+
+void Commands::workAtBaud(LineSession &line, int baudRate, Done done)
+{
+    line.bus().run<void>(
+        Priority::Click, this,
+        [baudRate](JobContext &context) { return AtBaud(context.bus(), baudRate).entered(); },
+        [this, where = QPointer<LineSession>(&line), baudRate, done = std::move(done)](const Result<void> &result) {
+            if (!result)
+                return refuse(nullptr, result.error(), done);
+            if (where)
+                where->setWorkingBaudRate(baudRate);
+            if (done)
+                done(result);
+        });
+}
+
+} // namespace dynascope

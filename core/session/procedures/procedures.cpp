@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/procedures/procedures.h"
+
+#include "core/session/procedures/atbaud.h"
+
+namespace dynascope {
+namespace {
+
+Result<PollValue> readValue(Bus &bus, const Span &span)
+{
+    auto reply = read(bus, span);
+    if (!reply)
+        return tl::unexpected(reply.error());
+    PollValue value;
+    value.address = span.address;
+    value.data = std::move(reply->data);
+    value.alert = reply->alert;
+    value.at = reply->at;
+    return value;
+}
+
+/// Appends what the spans hold; a refusal of one leaves it out.
+Result<void> appendSpans(JobContext &context, const std::vector<Span> &spans, std::vector<PollValue> &values)
+{
+    for (const Span &span : spans) {
+        if (const auto go = context.checkpoint(); !go)
+            return go;
+        auto value = readValue(context.bus(), span);
+        if (value)
+            values.push_back(std::move(*value));
+        else if (value.error().kind != ErrorKind::Refused)
+            return tl::unexpected(value.error());
+    }
+    return {};
+}
+
+} // namespace
+
+Result<std::vector<PollValue>> readSpans(JobContext &context, const ReadSpansPlan &plan)
+{
+    const AtBaud there(context.bus(), plan.place.baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    std::vector<PollValue> values;
+    if (const auto all = appendSpans(context, plan.spans, values); !all)
+        return tl::unexpected(all.error());
+    return values;
+}
+
+Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan)
+{
+    const AtBaud there(context.bus(), plan.place.baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    auto written = writeVerified(context.bus(), plan.data);
+    if (!written)
+        return tl::unexpected(written.error());
+    PollValue readBack;
+    readBack.address = plan.data.address;
+    readBack.data = std::move(*written);
+    readBack.at = context.bus().line().now();
+    std::vector<PollValue> values{std::move(readBack)};
+    // The write itself is done and verified: what else it moved is told as far as it could be read.
+    if (const auto all = appendSpans(context, plan.sideEffects, values);
+        !all && all.error().kind == ErrorKind::PortLost)
+        return tl::unexpected(all.error());
+    return values;
+}
+
+Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
+                                            bool on)
+{
+    const AtBaud there(context.bus(), baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    std::vector<Result<void>> outcomes;
+    for (const TorqueEntry &entry : entries) {
+        if (const auto go = context.checkpoint(); !go)
+            return tl::unexpected(go.error());
+        const auto written = writeVerified(context.bus(), {entry.id, entry.address, {std::uint8_t(on ? 1 : 0)}});
+        outcomes.push_back(written ? Result<void>() : tl::unexpected(written.error()));
+    }
+    return outcomes;
+}
+
+Result<Found> look(JobContext &context, const DevicePlace &place)
+{
+    const AtBaud there(context.bus(), place.baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    const auto reply = ping(context.bus(), place.id);
+    if (!reply)
+        return tl::unexpected(reply.error());
+    return Found{place.id, place.baudRate, reply->modelNumber, reply->firmware, reply->alert, {}};
+}
+
+Result<void> atPlace(JobContext &context, const DevicePlace &place, const std::function<Result<void>(Bus &)> &operation)
+{
+    const AtBaud there(context.bus(), place.baudRate);
+    if (!there.entered())
+        return there.entered();
+    return operation(context.bus());
+}
+
+} // namespace dynascope

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/busthread.h"
+#include "core/bus/operations.h"
+
+/// Several instructions with a meaning: functions of a JobContext and a plan, both values, that run on the bus thread.
+/// They know registers by address only; who makes the plan knows the table.
+namespace dynascope {
+
+/// Where a device is, and how its torque is turned off.
+struct DevicePlace {
+    std::uint8_t id = 0;
+    int baudRate = 57600;
+    std::uint16_t modelNumber = 0;
+    std::uint16_t torqueAddress = 64;
+    QString name; ///< for messages: "XM430-W350 #3"
+};
+
+/// Reads these spans one after the other, with a checkpoint between them. A span the device refuses is left out.
+struct ReadSpansPlan {
+    DevicePlace place;
+    std::vector<Span> spans;
+};
+Result<std::vector<PollValue>> readSpans(JobContext &context, const ReadSpansPlan &plan);
+
+/// Writes one register, reads it back, then reads what the write may have changed besides.
+struct WriteFieldPlan {
+    DevicePlace place;
+    SpanData data;
+    std::vector<Span> sideEffects;
+};
+Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
+
+/// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Accepts a status from the
+/// old or the new ID, then looks for the device at the new one and, failing that, at the old one.
+struct ChangeIdPlan {
+    DevicePlace place;
+    std::uint8_t newId = 0;
+    std::uint16_t idAddress = 7;
+    bool turnTorqueOff = false;
+};
+Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan);
+
+/// Manual: "Baud Rate". Tries on the port whether it can do the rate before anything is written; verifies at the new rate,
+/// and says where the device is where that fails.
+struct ChangeBaudPlan {
+    DevicePlace place;
+    int newBaudRate = 57600;
+    std::uint8_t code = 1;
+    std::uint16_t baudAddress = 8;
+    bool turnTorqueOff = false;
+};
+Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan);
+
+/// Sends Factory Reset where the place it will end at is free. Where to look for the device afterwards is `after`.
+struct FactoryResetPlan {
+    DevicePlace place;
+    ResetOption option = ResetOption::AllButIdAndBaud;
+    DevicePlace after;
+};
+Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan);
+
+/// Turns torque on or off and reads it back, for devices of one baud rate. One entry per device.
+struct TorqueEntry {
+    std::uint8_t id = 0;
+    std::uint16_t address = 64;
+};
+Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
+                                            bool on);
+
+/// Is it there? At its own baud rate, wherever the line works.
+Result<Found> look(JobContext &context, const DevicePlace &place);
+
+/// Runs `operation` at the device's baud rate.
+Result<void> atPlace(JobContext &context, const DevicePlace &place, const std::function<Result<void>(Bus &)> &operation);
+
+} // namespace dynascope

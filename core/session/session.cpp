@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/session.h"
+
+#include <algorithm>
+
+namespace dynascope {
+
+Session::Session(LineFactory &factory, const Catalog &catalog, QObject *parent)
+    : QObject(parent)
+    , m_factory(factory)
+    , m_catalog(catalog)
+{
+}
+
+Session::~Session()
+{
+    while (!m_lines.empty())
+        close(*m_lines.back());
+}
+
+LineSession &Session::open(const QString &name, int baudRate)
+{
+    const auto present = std::ranges::find_if(m_lines, [&name](const auto &line) { return line->name() == name; });
+    if (present != m_lines.end())
+        close(**present);
+    m_factory.prepare(name);
+    m_lines.push_back(std::make_unique<LineSession>(m_factory, name, baudRate, m_catalog, m_nextKey));
+    LineSession *line = m_lines.back().get();
+    connect(line, &LineSession::deviceAdded, this, &Session::deviceAdded);
+    connect(line, &LineSession::deviceAboutToBeRemoved, this, &Session::deviceAboutToBeRemoved);
+    emit lineAdded(line);
+    return *line;
+}
+
+void Session::close(LineSession &line)
+{
+    const auto at = std::ranges::find_if(m_lines, [&line](const auto &other) { return other.get() == &line; });
+    if (at == m_lines.end())
+        return;
+    while (!line.devices().empty())
+        line.forget(line.devices().back()->key());
+    emit lineAboutToBeRemoved(&line);
+    // Out of the list first: what the dying bus thread still delivers must not find half a line.
+    const std::unique_ptr<LineSession> dying = std::move(*at);
+    m_lines.erase(at);
+}
+
+Device *Session::device(DeviceKey key) const
+{
+    for (const auto &line : m_lines) {
+        if (Device *device = line->device(key))
+            return device;
+    }
+    return nullptr;
+}
+
+std::vector<Device *> Session::devices() const
+{
+    std::vector<Device *> devices;
+    for (const auto &line : m_lines) {
+        for (const auto &device : line->devices())
+            devices.push_back(device.get());
+    }
+    return devices;
+}
+
+} // namespace dynascope

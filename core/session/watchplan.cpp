@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/watchplan.h"
+
+#include "core/session/commands.h"
+
+#include <algorithm>
+
+namespace dynascope {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto SelectedInterval = 100ms;
+constexpr auto StateInterval = 1000ms;
+
+bool isIndirect(const Field &field)
+{
+    return field.name.startsWith(QLatin1String("Indirect "));
+}
+
+bool isState(const Field &field)
+{
+    return field.name == QLatin1String("Torque Enable") || field.name == QLatin1String("Hardware Error Status")
+        || field.name == QLatin1String("Present Input Voltage") || field.name == QLatin1String("Present Temperature");
+}
+
+void addSpans(PollPlan &plan, const Device &device, std::chrono::milliseconds interval,
+              const std::function<bool(const Field &)> &wanted)
+{
+    for (const Span &span : spansOf(device, wanted))
+        plan.spans.push_back({device.key(), span, interval});
+}
+
+} // namespace
+
+PollPlan planWatches(const std::vector<DeviceWatches> &devices)
+{
+    PollPlan plan;
+    for (const DeviceWatches &watches : devices) {
+        const Device &device = *watches.device;
+        if (device.state() == Device::State::Parked || device.state() == Device::State::Rebooting)
+            continue;
+        const Field *first = device.table().fields().data();
+        addSpans(plan, device, 0ms, [&](const Field &field) {
+            return std::ranges::find(watches.fields, static_cast<int>(&field - first)) != watches.fields.end();
+        });
+        if (watches.isSelected) {
+            addSpans(plan, device, SelectedInterval,
+                     [](const Field &field) { return field.area != Area::Eeprom && !isIndirect(field); });
+        } else {
+            addSpans(plan, device, StateInterval, isState);
+        }
+        plan.traits.push_back(device.traits());
+    }
+    return plan;
+}
+
+} // namespace dynascope

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/device.h"
+
+namespace dynascope {
+
+/// What one device is polled for.
+struct DeviceWatches {
+    const Device *device = nullptr;
+    std::vector<int> fields;  ///< at full rate, indices of its table
+    bool isSelected = false;  ///< its RAM is on screen: 10 Hz
+};
+
+/// The spans to poll. Pure. Neighbouring fields are joined, gaps read through where that costs less than asking again;
+/// besides what is watched and selected, every device's state (torque, hardware error, voltage, temperature) at 1 Hz.
+/// Devices that are parked or rebooting are left out.
+PollPlan planWatches(const std::vector<DeviceWatches> &devices);
+
+} // namespace dynascope

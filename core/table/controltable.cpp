@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/table/controltable.h"
+
+#include <algorithm>
+
+namespace dynascope {
+
+ControlTable::ControlTable(Description description) : m_description(std::move(description))
+{
+    m_byName.reserve(m_description.fields.size());
+    for (std::size_t i = 0; i < m_description.fields.size(); ++i) {
+        const Field &field = m_description.fields[i];
+        m_byName.emplace_back(normalizedName(field.name), static_cast<int>(i));
+        m_size = std::max(m_size, field.end());
+    }
+    std::sort(m_byName.begin(), m_byName.end());
+}
+
+int ControlTable::indexOf(QStringView name) const
+{
+    const std::pair<QString, int> wanted(normalizedName(name), -1);
+    const auto found = std::lower_bound(m_byName.begin(), m_byName.end(), wanted);
+    return found != m_byName.end() && found->first == wanted.first ? found->second : -1;
+}
+
+const Field *ControlTable::find(QStringView name) const
+{
+    const int index = indexOf(name);
+    return index < 0 ? nullptr : &m_description.fields[static_cast<std::size_t>(index)];
+}
+
+const Field *ControlTable::at(int address) const
+{
+    const auto &all = m_description.fields;
+    const auto found = std::lower_bound(
+        all.begin(), all.end(), address, [](const Field &field, int wanted) { return field.address < wanted; });
+    return found != all.end() && found->address == address ? &*found : nullptr;
+}
+
+int ControlTable::indexOf(const Field *field) const
+{
+    // Only a field of this very table has an index; by address, so that a foreign pointer is never subtracted from.
+    if (!field || at(field->address) != field)
+        return -1;
+    return static_cast<int>(field - m_description.fields.data());
+}
+
+std::optional<int> ControlTable::baudRate(int code) const
+{
+    for (const BaudCode &baud : m_description.baudCodes) {
+        if (baud.code == code)
+            return baud.rate;
+    }
+    return std::nullopt;
+}
+
+std::optional<int> ControlTable::baudCode(int rate) const
+{
+    for (const BaudCode &baud : m_description.baudCodes) {
+        if (baud.rate == rate)
+            return baud.code;
+    }
+    return std::nullopt;
+}
+
+bool ControlTable::hasFastReads(int firmware) const
+{
+    return m_description.fastReadsFrom >= 0 && firmware >= m_description.fastReadsFrom;
+}
+
+bool ControlTable::hasBackup(int firmware) const
+{
+    return m_description.backupFrom >= 0 && firmware >= m_description.backupFrom;
+}
+
+QString normalizedName(QStringView name)
+{
+    QString plain;
+    plain.reserve(name.size());
+    for (const QChar c : name) {
+        if (!c.isSpace() && c != u'-' && c != u'_')
+            plain.append(c.toLower());
+    }
+    return plain;
+}
+
+namespace {
+
+std::optional<std::int64_t> resolved(const Bound &bound, const RegisterLookup &lookup)
+{
+    if (bound.number)
+        return bound.number;
+    if (bound.reg.isEmpty() || !lookup)
+        return std::nullopt;
+    const std::optional<std::int64_t> value = lookup(bound.reg);
+    if (!value)
+        return std::nullopt;
+    return bound.negated ? -*value : *value;
+}
+
+bool holds(const Alternate &alternate, const RegisterLookup &lookup)
+{
+    if (!lookup)
+        return false;
+    const std::optional<std::int64_t> value = lookup(alternate.reg);
+    if (!value)
+        return false;
+    const std::int64_t masked = *value & static_cast<std::int64_t>(alternate.mask);
+    return std::find(alternate.values.begin(), alternate.values.end(), masked) != alternate.values.end();
+}
+
+} // namespace
+
+EffectiveField effective(const Field &field, const RegisterLookup &lookup)
+{
+    const Bound *minimum = &field.minimum;
+    const Bound *maximum = &field.maximum;
+    EffectiveField result;
+    result.unit = field.unit;
+    result.scale = field.scale;
+    for (const Alternate &alternate : field.alternates) {
+        if (!holds(alternate, lookup))
+            continue;
+        if (alternate.minimum.isSet())
+            minimum = &alternate.minimum;
+        if (alternate.maximum.isSet())
+            maximum = &alternate.maximum;
+        result.unit = alternate.unit;
+        result.scale = alternate.scale;
+        break;
+    }
+    result.minimum = resolved(*minimum, lookup);
+    result.maximum = resolved(*maximum, lookup);
+    return result;
+}
+
+std::int64_t smallestRaw(const Field &field)
+{
+    return field.isSigned ? -(std::int64_t(1) << (8 * field.size - 1)) : 0;
+}
+
+std::int64_t largestRaw(const Field &field)
+{
+    return (std::int64_t(1) << (8 * field.size - (field.isSigned ? 1 : 0))) - 1;
+}
+
+std::int64_t rawFromBytes(const Field &field, ByteView bytes)
+{
+    const int size = std::min(static_cast<int>(field.size), static_cast<int>(bytes.size()));
+    const std::int64_t value = littleEndian(bytes, size);
+    return field.isSigned && value > largestRaw(field) ? value + 2 * smallestRaw(field) : value;
+}
+
+Bytes bytesFromRaw(const Field &field, std::int64_t raw)
+{
+    Bytes bytes;
+    appendLittleEndian(bytes, static_cast<std::uint32_t>(raw), field.size);
+    return bytes;
+}
+
+} // namespace dynascope

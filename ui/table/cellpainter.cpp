@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/cellpainter.h"
+
+#include "ui/common/icons.h"
+#include "ui/common/theme.h"
+
+#include <QPainter>
+#include <QStyle>
+#include <QWidget>
+
+namespace dynascope {
+namespace {
+
+constexpr int Margin = 8;
+constexpr int IconSize = 14;
+constexpr int TickSize = 14;
+
+struct Ink {
+    QColor text, dimmed, accent, bad;
+};
+
+Ink inkFor(const QStyleOptionViewItem &option)
+{
+    const ThemeColors &theme = colors(option.palette);
+    if ((option.state & QStyle::State_Selected) && (option.state & QStyle::State_Active)) {
+        const QColor text = option.palette.color(QPalette::Active, QPalette::HighlightedText);
+        QColor dimmed = text;
+        dimmed.setAlphaF(0.75F);
+        return {text, dimmed, text, text};
+    }
+    return {option.palette.color(QPalette::Active, QPalette::Text), theme.dimmed, theme.accent, theme.bad};
+}
+
+/// Writes `text` at the right end of `rect` and takes its width away from it.
+void takeRight(QPainter *painter, QRect &rect, const QString &text, const QColor &color)
+{
+    const QFontMetrics metrics = painter->fontMetrics();
+    painter->setPen(color);
+    painter->drawText(rect, Qt::AlignRight | Qt::AlignVCenter | Qt::TextSingleLine,
+                      metrics.elidedText(text, Qt::ElideMiddle, rect.width()));
+    rect.setRight(rect.right() - metrics.horizontalAdvance(text));
+}
+
+/// Marks at the left edge: they must not move the digits.
+void paintMark(QPainter *painter, QRect &rect, const QModelIndex &index, const Ink &ink, FieldState state)
+{
+    const QRect mark(rect.left(), rect.center().y() - IconSize / 2, IconSize, IconSize);
+    if (state == FieldState::Failed) {
+        paintIcon(painter, mark, QStringLiteral("warning"), ink.bad);
+    } else if (index.data(DiffersRole).toBool()) {
+        painter->setPen(ink.accent);
+        painter->drawText(mark, Qt::AlignCenter, QString(QChar(0x2260)));
+    } else {
+        return;
+    }
+    rect.setLeft(mark.right() + 4);
+}
+
+} // namespace
+
+int unitLaneWidth(const QFont &font)
+{
+    return QFontMetrics(font).horizontalAdvance(QStringLiteral("rev/min²"));
+}
+
+void paintCell(QPainter *painter, const QStyleOptionViewItem &option)
+{
+    const QStyle *style = option.widget ? option.widget->style() : nullptr;
+    if (style)
+        style->drawPrimitive(QStyle::PE_PanelItemViewItem, &option, painter, option.widget);
+    if ((option.state & QStyle::State_HasFocus) && (option.state & QStyle::State_Active)) {
+        painter->save();
+        painter->setPen(inkFor(option).accent);
+        painter->setBrush(Qt::NoBrush);
+        painter->drawRect(option.rect.adjusted(1, 1, -2, -2));
+        painter->restore();
+    }
+}
+
+void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index)
+{
+    painter->save();
+    const Ink ink = inkFor(option);
+    const auto state = static_cast<FieldState>(index.data(StateRole).toInt());
+    const double fade = index.data(FadeRole).toDouble();
+    if (fade > 0 && !(option.state & QStyle::State_Selected)) {
+        QColor changed = colors(option.palette).changed;
+        changed.setAlphaF(static_cast<float>(fade));
+        painter->fillRect(option.rect, changed);
+    }
+    QRect rect = option.rect.adjusted(Margin, 0, -Margin, 0);
+    const ColumnKind kind = kindAt(index);
+    const QString number = index.data(NumberRole).toString();
+    const QString whole = index.data(Qt::DisplayRole).toString();
+    const QString pending = index.data(PendingTextRole).toString();
+    paintMark(painter, rect, index, ink, state);
+    const bool dim = state == FieldState::Stale || !pending.isEmpty();
+    const QColor textColor = dim ? ink.dimmed : ink.text;
+
+    QFont words = option.font;
+    words.setBold(index.data(DiffersRole).toBool());
+    QFont digits = numberFont(option.font);
+    digits.setBold(words.bold());
+    if (whole.isEmpty() && state == FieldState::Unknown && kind != ColumnKind::Physical) {
+        painter->setFont(digits);
+        takeRight(painter, rect, QStringLiteral("–"), ink.dimmed);
+    } else if (!number.isEmpty()) {
+        if (kind != ColumnKind::Value) {
+            QRect lane = rect;
+            lane.setLeft(rect.right() + 1 - unitLaneWidth(option.font));
+            painter->setFont(option.font);
+            painter->setPen(ink.dimmed);
+            painter->drawText(lane, Qt::AlignLeft | Qt::AlignVCenter, index.data(UnitRole).toString());
+            rect.setRight(lane.left() - 5);
+        }
+        painter->setFont(digits);
+        if (!pending.isEmpty()) {
+            const QString next = kind == ColumnKind::Value ? pending : pending.section(u' ', 0, 0);
+            takeRight(painter, rect, QStringLiteral(" → ") + next, ink.accent);
+        }
+        takeRight(painter, rect, number, textColor);
+    } else {
+        painter->setFont(words);
+        const QString text = pending.isEmpty() ? whole : whole + QStringLiteral(" → ") + pending;
+        painter->setPen(pending.isEmpty() ? textColor : ink.accent);
+        painter->drawText(rect, Qt::AlignLeft | Qt::AlignVCenter | Qt::TextSingleLine,
+                          painter->fontMetrics().elidedText(text, Qt::ElideRight, rect.width()));
+    }
+    painter->restore();
+}
+
+QRect plotTickRect(const QRect &cell)
+{
+    return QRect(cell.center().x() - TickSize / 2, cell.center().y() - TickSize / 2, TickSize, TickSize);
+}
+
+void paintPlotTick(QPainter *painter, const QStyleOptionViewItem &option, Qt::CheckState state)
+{
+    const Ink ink = inkFor(option);
+    const QRectF box = QRectF(plotTickRect(option.rect)).adjusted(0.5, 0.5, -0.5, -0.5);
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    if (state == Qt::Unchecked) {
+        painter->setPen(ink.text == ink.accent ? ink.dimmed : option.palette.color(QPalette::Mid));
+        painter->setBrush(Qt::NoBrush);
+        painter->drawRoundedRect(box, 3, 3);
+    } else {
+        const bool selected = ink.text == ink.accent;
+        painter->setPen(Qt::NoPen);
+        painter->setBrush(ink.accent);
+        painter->drawRoundedRect(box, 3, 3);
+        painter->setBrush(Qt::NoBrush);
+        const QColor tick = selected ? option.palette.color(QPalette::Highlight) : option.palette.color(QPalette::Base);
+        paintIcon(painter, box.adjusted(1, 1, -1, -1),
+                  state == Qt::Checked ? QStringLiteral("check") : QStringLiteral("minus"), tick);
+    }
+    painter->restore();
+}
+
+} // namespace dynascope

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/table/controltable.h"
+
+#include <set>
+
+namespace dynascope {
+
+/// How the registers of a table are grouped: by area, the long indirect blocks for themselves.
+struct FieldGroup {
+    QString title;
+    bool folded = false;     ///< as long as nobody opened it
+    std::vector<int> fields; ///< indices in the table, by address
+};
+std::vector<FieldGroup> fieldGroups(const ControlTable &table);
+
+/// Registers that others take their range, unit or lock from: when one changes, everything may look different.
+std::set<int> decidingFields(const ControlTable &table);
+
+} // namespace dynascope

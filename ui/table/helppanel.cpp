@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/helppanel.h"
+
+#include "ui/common/icons.h"
+#include "ui/common/theme.h"
+#include "ui/table/fieldwordsmodel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace dynascope {
+namespace {
+
+constexpr int TextHeight = 88;
+
+QString areaText(Area area)
+{
+    switch (area) {
+    case Area::Eeprom: return HelpPanel::tr("EEPROM");
+    case Area::Hybrid: return HelpPanel::tr("Hybrid");
+    case Area::Ram: break;
+    }
+    return HelpPanel::tr("RAM");
+}
+
+QString factsText(const Field &field)
+{
+    return HelpPanel::tr("address %1 · %n byte(s) · %2 · %3", nullptr, field.size)
+        .arg(field.address)
+        .arg(areaText(field.area), accessText(field));
+}
+
+QString meaningsText(const Field &field)
+{
+    QStringList parts;
+    for (const EnumValue &value : field.values)
+        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
+    for (const BitField &bits : field.bits) {
+        QString name = bits.count == 1 ? HelpPanel::tr("bit %1").arg(bits.first)
+                                       : HelpPanel::tr("bits %1–%2").arg(bits.first).arg(bits.first + bits.count - 1);
+        QString text = bits.name.toHtmlEscaped();
+        QStringList values;
+        for (const EnumValue &value : bits.values)
+            values << QStringLiteral("%1 = %2").arg(value.value).arg(value.text.toHtmlEscaped());
+        if (!values.isEmpty())
+            text += QStringLiteral(": ") + values.join(QStringLiteral(", "));
+        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(name, text);
+    }
+    return parts.join(QStringLiteral(" &nbsp;·&nbsp; "));
+}
+
+/// "0 … 4095 (0.00 ° … 359.91 °)"
+QString withUnits(const Field &field, const EffectiveField &effective, int resolution, AngleUnit angle,
+                  const std::optional<std::int64_t> &from, const std::optional<std::int64_t> &to)
+{
+    if (!from || !to)
+        return {};
+    const bool single = *from == *to;
+    const auto raw = [](std::int64_t value) { return QString::number(value).replace(u'-', QChar(0x2212)); };
+    QString text = single ? raw(*from) : raw(*from) + QStringLiteral(" … ") + raw(*to);
+    if (effective.unit != Unit::None) {
+        const QString low = valueText(field, effective, resolution, *from, angle);
+        const QString high = valueText(field, effective, resolution, *to, angle);
+        text += single ? QStringLiteral(" (%1)").arg(low) : QStringLiteral(" (%1 … %2)").arg(low, high);
+    }
+    return text;
+}
+
+} // namespace
+
+HelpPanel::HelpPanel(QWidget *parent)
+    : QFrame(parent)
+    , m_name(new QLabel(this))
+    , m_facts(new QLabel(this))
+    , m_text(new QLabel)
+    , m_area(new QScrollArea(this))
+    , m_fold(new QToolButton(this))
+{
+    setObjectName(QStringLiteral("helpPanel"));
+    QFont bold = font();
+    bold.setBold(true);
+    m_name->setFont(bold);
+    m_facts->setForegroundRole(QPalette::PlaceholderText);
+    m_facts->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_text->setObjectName(QStringLiteral("helpText"));
+    m_text->setWordWrap(true);
+    m_text->setTextFormat(Qt::RichText);
+    m_text->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    m_text->setContentsMargins(0, 0, 8, 0);
+    m_area->setWidget(m_text);
+    m_area->setWidgetResizable(true);
+    m_area->setFrameShape(QFrame::NoFrame);
+    m_area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_area->setFocusPolicy(Qt::NoFocus);
+    m_area->setFixedHeight(TextHeight);
+    m_area->viewport()->setAutoFillBackground(false);
+    m_text->setAutoFillBackground(false);
+    m_fold->setObjectName(QStringLiteral("helpFold"));
+    m_fold->setAutoRaise(true);
+    connect(m_fold, &QToolButton::clicked, this, [this] { setFolded(!m_folded); });
+
+    auto *head = new QHBoxLayout;
+    head->setSpacing(12);
+    head->addWidget(m_name);
+    head->addWidget(m_facts, 1);
+    head->addWidget(m_fold);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(12, 4, 8, 4);
+    layout->setSpacing(4);
+    layout->addLayout(head);
+    layout->addWidget(m_area);
+    setFolded(false);
+    showCell({});
+}
+
+void HelpPanel::setFolded(bool folded)
+{
+    m_folded = folded;
+    m_area->setVisible(!folded);
+    m_fold->setIcon(icon(folded ? QStringLiteral("chevron-up") : QStringLiteral("chevron-down"), IconTint::Dimmed));
+    m_fold->setToolTip(folded ? tr("Show what the register is for") : tr("Fold this to one line"));
+}
+
+void HelpPanel::showCell(const QModelIndex &cell)
+{
+    const Field *field = cell.data(FieldDataRole).value<const Field *>();
+    if (!field) {
+        m_shown.clear();
+        m_name->setText(tr("No register selected"));
+        m_facts->clear();
+        m_text->setText(tr("Select a row to read what the register is for."));
+        return;
+    }
+    const auto effective = cell.data(EffectiveRole).value<EffectiveField>();
+    const int resolution = cell.data(ResolutionRole).toInt();
+    QStringList lines;
+    if (!field->help.isEmpty())
+        lines << field->help.toHtmlEscaped();
+    QStringList facts;
+    if (const QString range = withUnits(*field, effective, resolution, m_angle, effective.minimum, effective.maximum);
+        !range.isEmpty() && field->isWritable() && field->values.empty())
+        facts << tr("Range %1").arg(range);
+    if (field->initial && field->isWritable())
+        facts << tr("Default %1").arg(withUnits(*field, effective, resolution, m_angle, field->initial, field->initial));
+    if (!facts.isEmpty())
+        lines << facts.join(QStringLiteral(" &nbsp;·&nbsp; "));
+    if (const QString meanings = meaningsText(*field); !meanings.isEmpty())
+        lines << meanings;
+    if (!field->resets.isEmpty())
+        lines << tr("A write here also resets %1.").arg(field->resets.join(QStringLiteral(", ")).toHtmlEscaped());
+    if (const QString lock = cell.data(LockRole).toString(); field->isWritable() && !lock.isEmpty())
+        lines << QStringLiteral("<span style=\"color:%1\">%2</span>")
+                     .arg(colors(palette()).warning.name(), lock.toHtmlEscaped());
+    const QString text = QStringLiteral("<p style=\"margin:0 0 4px 0\">")
+        + lines.join(QStringLiteral("</p><p style=\"margin:0 0 4px 0\">")) + QStringLiteral("</p>");
+    if (text == m_shown && m_name->text() == field->name)
+        return;
+    m_shown = text;
+    m_name->setText(field->name);
+    m_facts->setText(factsText(*field));
+    m_text->setText(text);
+}
+
+} // namespace dynascope

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/table/units.h"
+
+#include <QFrame>
+#include <QModelIndex>
+
+class QLabel;
+class QScrollArea;
+class QToolButton;
+
+namespace dynascope {
+
+/// What the register under the cursor is for, in a strip of fixed height that folds to one line.
+class HelpPanel : public QFrame
+{
+    Q_OBJECT
+
+public:
+    explicit HelpPanel(QWidget *parent = nullptr);
+
+    void showCell(const QModelIndex &cell); ///< a value's cell; invalid: nothing
+    void setAngleUnit(AngleUnit unit) { m_angle = unit; }
+    bool isFolded() const { return m_folded; }
+    void setFolded(bool folded);
+
+private:
+    AngleUnit m_angle = AngleUnit::Degrees;
+    bool m_folded = false;
+    QString m_shown;
+    QLabel *m_name;
+    QLabel *m_facts;
+    QLabel *m_text;
+    QScrollArea *m_area;
+    QToolButton *m_fold;
+};
+
+} // namespace dynascope

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/tablepanel.h"
+
+#include "ui/table/editflow.h"
+#include "ui/table/fielddelegate.h"
+#include "ui/table/fieldfiltermodel.h"
+#include "ui/table/fieldtablemodel.h"
+#include "ui/table/fieldwordsmodel.h"
+#include "ui/table/goalbar.h"
+#include "ui/table/helppanel.h"
+#include "ui/table/lockbar.h"
+#include "ui/table/tableempty.h"
+#include "ui/table/tablemenu.h"
+#include "ui/table/tabletools.h"
+#include "ui/table/tableview.h"
+
+#include <QClipboard>
+#include <QDataStream>
+#include <QGuiApplication>
+#include <QIODevice>
+#include <QLineEdit>
+#include <QScrollBar>
+#include <QShortcut>
+#include <QStackedLayout>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace dynascope {
+namespace {
+
+constexpr quint32 StateVersion = 1;
+
+/// A line between parts, in place of frames.
+QFrame *makeRule(QWidget *parent)
+{
+    auto *rule = new QFrame(parent);
+    rule->setFrameShape(QFrame::NoFrame);
+    rule->setFixedHeight(1);
+    rule->setAutoFillBackground(true);
+    rule->setBackgroundRole(QPalette::Midlight);
+    return rule;
+}
+
+} // namespace
+
+TablePanel::TablePanel(TableActions actions, std::function<qint64()> clock, QWidget *parent)
+    : QWidget(parent)
+    , m_actions(std::move(actions))
+    , m_model(new FieldTableModel(m_actions, std::move(clock), this))
+    , m_words(new FieldWordsModel(this))
+    , m_filter(new FieldFilterModel(this))
+    , m_delegate(new FieldDelegate(this))
+{
+    m_words->setSourceModel(m_model);
+    m_filter->setSourceModel(m_words);
+    build();
+    m_flow = new EditFlow(*m_model, *m_view, *m_lockBar, m_actions, this);
+    connectParts();
+    addShortcuts();
+    setDevices({});
+}
+
+TablePanel::~TablePanel()
+{
+    // The view asks the flow while it is taken apart; both are children, in no order to rely on.
+    m_view->setEditGate({});
+}
+
+void TablePanel::build()
+{
+    auto *grid = new QWidget(this);
+    m_tools = new TableTools(*m_filter, grid);
+    m_view = new TableView(grid);
+    m_view->setModel(m_filter);
+    m_view->setItemDelegate(m_delegate);
+    m_lockBar = new LockBar(grid);
+    m_goals = new GoalBar(m_actions.write, grid);
+    m_help = new HelpPanel(grid);
+    auto *layout = new QVBoxLayout(grid);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_tools);
+    layout->addWidget(m_view, 1);
+    layout->addWidget(m_lockBar);
+    layout->addWidget(makeRule(grid));
+    layout->addWidget(m_goals);
+    layout->addWidget(makeRule(grid));
+    layout->addWidget(m_help);
+    m_empty = new TableEmpty(this);
+    m_pages = new QStackedLayout(this);
+    m_pages->addWidget(m_empty);
+    m_pages->addWidget(grid);
+}
+
+void TablePanel::connectParts()
+{
+    m_view->setEditGate([this](const QModelIndex &cell) { return m_flow->gate(cell); });
+    connect(m_flow, &EditFlow::changeIdRequested, this, &TablePanel::changeIdRequested);
+    connect(m_flow, &EditFlow::changeBaudRequested, this, &TablePanel::changeBaudRequested);
+    connect(m_model, &FieldTableModel::plotRequested, this, &TablePanel::plotRequested);
+    connect(m_model, &FieldTableModel::unplotRequested, this, &TablePanel::unplotRequested);
+    connect(m_model, &FieldTableModel::updated, this, [this] { m_help->showCell(valueCell()); });
+    connect(m_model, &QAbstractItemModel::modelReset, this, [this] { setEmptyText(); });
+    connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::message);
+    connect(m_view, &TableView::plotToggled, this, &TablePanel::togglePlot);
+    connect(m_view, &QWidget::customContextMenuRequested, this, &TablePanel::showMenu);
+    connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, &TablePanel::currentChanged);
+    const auto keepFold = [this](const QModelIndex &group, bool folded) {
+        if (!m_arranging && !m_filter->isFiltering())
+            m_folded[group.data(GroupRole).toString()] = folded;
+    };
+    connect(m_view, &QTreeView::expanded, this, [keepFold](const QModelIndex &group) { keepFold(group, false); });
+    connect(m_view, &QTreeView::collapsed, this, [keepFold](const QModelIndex &group) { keepFold(group, true); });
+    connect(m_filter, &QAbstractItemModel::rowsInserted, this, [this](const QModelIndex &parent) {
+        if (!parent.isValid())
+            updateGroups();
+    });
+    connect(m_tools, &TableTools::filterChanged, this, &TablePanel::updateGroups);
+    connect(m_tools, &TableTools::leaveSearch, this, [this] {
+        m_view->setFocus();
+        if (!valueCell().isValid() && m_filter->rowCount() > 0)
+            m_view->setCurrentIndex(m_filter->index(0, 0, m_filter->index(0, 0)));
+    });
+    connect(m_tools, &TableTools::editAllToggled, this, [this](bool on) {
+        m_model->setEditsAll(on);
+        currentChanged();
+    });
+}
+
+void TablePanel::addShortcuts()
+{
+    auto *find = new QShortcut(QKeySequence::Find, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    connect(find, &QShortcut::activated, this, [this] {
+        m_tools->search()->setFocus(Qt::ShortcutFocusReason);
+        m_tools->search()->selectAll();
+    });
+    auto *copy = new QShortcut(QKeySequence::Copy, m_view, nullptr, nullptr, Qt::WidgetShortcut);
+    connect(copy, &QShortcut::activated, this, &TablePanel::copyValue);
+}
+
+void TablePanel::setDevices(const std::vector<Device *> &devices)
+{
+    std::vector<Device *> alike;
+    std::ranges::copy_if(devices, std::back_inserter(alike), [&](const Device *device) {
+        return device->modelNumber() == devices.front()->modelNumber()
+            && device->table().fields().size() == devices.front()->table().fields().size();
+    });
+    if (alike == m_model->devices() && !alike.empty())
+        return;
+    const Field *current = valueCell().data(FieldDataRole).value<const Field *>();
+    const QString name = current ? current->name : QString();
+    const int scrolled = m_view->verticalScrollBar()->value();
+    m_model->setDevices(alike);
+    m_tools->setDeviceCount(static_cast<int>(alike.size()));
+    m_view->applyColumnWidths();
+    updateGroups();
+    selectField(name);
+    m_view->verticalScrollBar()->setValue(scrolled);
+    currentChanged();
+}
+
+void TablePanel::selectField(const QString &name)
+{
+    if (name.isEmpty() || m_model->devices().empty())
+        return;
+    const int field = m_model->devices().front()->table().indexOf(name);
+    const int column
+        = std::max(m_model->columnOf(ColumnKind::Physical), m_model->columnOf(ColumnKind::Device));
+    const QModelIndex cell = m_filter->mapFromSource(m_words->mapFromSource(m_model->indexOf(field, column)));
+    if (cell.isValid())
+        m_view->selectionModel()->setCurrentIndex(
+            cell, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+}
+
+void TablePanel::setEmptyText()
+{
+    const std::vector<Device *> &devices = m_model->devices();
+    if (devices.empty()) {
+        m_empty->setTexts(tr("No device selected"),
+                          tr("Select a servo on the left to see its control table here: every register with its value, "
+                             "what it means, and an editor where it can be changed."));
+    } else if (!devices.front()->isKnownModel()) {
+        m_empty->setTexts(tr("Unknown model %1").arg(devices.front()->modelNumber()),
+                          tr("There is no control table for this model yet. Its registers can be read by address on the "
+                             "command line: dxl read %1 ADDRESS:LENGTH").arg(devices.front()->id()));
+    }
+    m_pages->setCurrentIndex(devices.empty() || !devices.front()->isKnownModel() ? 0 : 1);
+}
+
+void TablePanel::refreshWatches()
+{
+    m_model->refreshWatches();
+}
+
+void TablePanel::setAngleUnit(AngleUnit unit)
+{
+    m_words->setAngleUnit(unit);
+    m_delegate->setAngleUnit(unit);
+    m_goals->setAngleUnit(unit);
+    m_help->setAngleUnit(unit);
+    m_view->applyColumnWidths();
+    updateGroups();
+    currentChanged();
+}
+
+QModelIndex TablePanel::valueCell() const
+{
+    const QModelIndex current = m_view->currentIndex();
+    if (!fieldAt(current))
+        return {};
+    if (isValueKind(kindAt(current)))
+        return current;
+    const int column
+        = std::max(m_model->columnOf(ColumnKind::Physical), m_model->columnOf(ColumnKind::Device));
+    return current.siblingAtColumn(column);
+}
+
+void TablePanel::currentChanged()
+{
+    const QModelIndex cell = valueCell();
+    m_help->showCell(cell);
+    if (m_model->devices().empty())
+        m_goals->setDevices({});
+    else
+        m_goals->setDevices(m_model->targets(cell.isValid() ? cell.column() : 0));
+}
+
+void TablePanel::updateGroups()
+{
+    m_arranging = true;
+    for (int row = 0; row < m_filter->rowCount(); ++row) {
+        const QModelIndex group = m_filter->index(row, 0);
+        const QString title = group.data(GroupRole).toString();
+        const auto known = std::ranges::find(m_model->groups(), title, &FieldGroup::title);
+        const auto kept = m_folded.find(title);
+        const bool folded = kept != m_folded.end() ? kept->second : known != m_model->groups().end() && known->folded;
+        m_view->setExpanded(group, m_filter->isFiltering() || !folded);
+    }
+    m_arranging = false;
+}
+
+void TablePanel::togglePlot(const QModelIndex &cell)
+{
+    const QModelIndex tick = cell.siblingAtColumn(m_model->columnOf(ColumnKind::Plot));
+    const bool on = tick.data(WatchedRole).toInt() == Qt::Checked;
+    for (const QModelIndex &row : m_view->selectionModel()->selectedRows(tick.column())) {
+        if (fieldAt(row) && row != tick)
+            m_filter->setData(row, static_cast<int>(on ? Qt::Unchecked : Qt::Checked), Qt::CheckStateRole);
+    }
+    m_filter->setData(tick, static_cast<int>(on ? Qt::Unchecked : Qt::Checked), Qt::CheckStateRole);
+}
+
+void TablePanel::copyValue()
+{
+    const QString text = valueCell().data().toString();
+    if (!text.isEmpty())
+        QGuiApplication::clipboard()->setText(text);
+    else if (const QVariant raw = valueCell().data(RawRole); raw.isValid())
+        QGuiApplication::clipboard()->setText(raw.toString());
+}
+
+void TablePanel::showMenu(const QPoint &at)
+{
+    const QModelIndex under = m_view->indexAt(at);
+    if (under.isValid() && !m_view->selectionModel()->isRowSelected(under.row(), under.parent()))
+        m_view->setCurrentIndex(under);
+    const QPersistentModelIndex cell = valueCell();
+    TableMenuActions actions;
+    if (const Field *field = fieldAt(cell)) {
+        actions.togglePlot = [this, cell] { togglePlot(cell); };
+        if (field->isWritable())
+            actions.edit = [this, cell] { m_view->startEdit(cell); };
+        if (cell.data(RawRole).isValid())
+            actions.copyValue = [this] { copyValue(); };
+        if (field->isWritable() && field->initial && !isProcedureField(*field)
+            && cell.data(ChangedFromDefaultRole).toBool())
+            actions.resetToDefault = [this, cell, initial = *field->initial] { m_flow->write(cell, initial); };
+    }
+    actions.readAgain = [this] {
+        for (Device *device : std::vector<Device *>(m_model->devices()))
+            m_actions.readAll(*device);
+    };
+    actions.deviceCount = static_cast<int>(m_model->devices().size());
+    actions.appliesToAll = m_model->editsAll();
+    if (actions.deviceCount > 1)
+        actions.applyToAll = [this](bool on) { m_tools->editAll()->setChecked(on); };
+    popupTableMenu(cell, actions, m_view->viewport()->mapToGlobal(at), this);
+}
+
+QByteArray TablePanel::saveState() const
+{
+    QByteArray state;
+    QDataStream out(&state, QIODevice::WriteOnly);
+    out.setVersion(QDataStream::Qt_6_4);
+    out << StateVersion << QMap<int, int>(m_view->columnWidths()) << QMap<QString, bool>(m_folded)
+        << m_help->isFolded();
+    return state;
+}
+
+void TablePanel::restoreState(const QByteArray &state)
+{
+    QDataStream in(state);
+    in.setVersion(QDataStream::Qt_6_4);
+    quint32 version = 0;
+    QMap<int, int> widths;
+    QMap<QString, bool> folded;
+    bool helpFolded = false;
+    in >> version >> widths >> folded >> helpFolded;
+    if (in.status() != QDataStream::Ok || version != StateVersion)
+        return;
+    m_view->setColumnWidths(widths.toStdMap());
+    m_folded = folded.toStdMap();
+    m_help->setFolded(helpFolded);
+    updateGroups();
+}
+
+void TablePanel::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    m_model->setLive(true);
+}
+
+void TablePanel::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    m_model->setLive(false);
+}
+
+} // namespace dynascope

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/device.h"
+
+#include <QMetaType>
+#include <QModelIndex>
+
+namespace dynascope {
+
+/// What a column of the table shows.
+enum class ColumnKind { Name, Plot, Address, Value, Physical, Device, Default, Range, Access };
+
+/// Raw roles of FieldTableModel, and below them the words FieldWordsModel adds. Delegates, filters and editors know these and
+/// no model. A group's row has none but GroupRole.
+enum TableRole {
+    GroupRole = Qt::UserRole, ///< QString: the group's title
+    FieldRole,                ///< int: index in the device's table; missing for groups
+    FieldDataRole,            ///< const Field *
+    KindRole,                 ///< int: ColumnKind
+    RawRole,                  ///< qlonglong: what the servo said last; missing where it never did
+    StateRole,                ///< int: FieldState
+    PendingRole,              ///< qlonglong: what is being written, once that takes long enough to be worth showing
+    ErrorRole,                ///< QString
+    EffectiveRole,            ///< EffectiveField
+    ResolutionRole,           ///< int: pulses per revolution
+    DiffersRole,              ///< bool: not what the first device has, in a register a person sets
+    ChangedFromDefaultRole,   ///< bool: writable, and not as it came from the factory; of any device in the name's column
+    WatchedRole,              ///< int: Qt::CheckState over all devices
+    LockRole,                 ///< QString: why it can't be written now; empty where it can
+    FadeRole,                 ///< double: 1 just changed … 0
+    NumberRole,               ///< QString, words: the number without its unit; missing where the value has a name
+    UnitRole,                 ///< QString, words: its unit
+    PendingTextRole,          ///< QString, words: what is being written
+};
+
+inline const Field *fieldAt(const QModelIndex &index)
+{
+    return index.data(FieldDataRole).value<const Field *>();
+}
+
+inline bool isValueKind(ColumnKind kind)
+{
+    return kind == ColumnKind::Value || kind == ColumnKind::Physical || kind == ColumnKind::Device;
+}
+
+inline ColumnKind kindAt(const QModelIndex &index)
+{
+    return static_cast<ColumnKind>(index.data(KindRole).toInt());
+}
+
+/// Those two are changed by procedures (other registers and the line follow), never by a plain write.
+inline bool isProcedureField(const Field &field)
+{
+    return field.name == u"ID" || field.name.startsWith(u"Baud Rate");
+}
+
+} // namespace dynascope
+
+Q_DECLARE_METATYPE(const dynascope::Field *)
+Q_DECLARE_METATYPE(dynascope::EffectiveField)

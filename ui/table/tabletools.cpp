@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/tabletools.h"
+
+#include "ui/common/icons.h"
+#include "ui/table/fieldfiltermodel.h"
+
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QToolButton>
+
+namespace dynascope {
+
+TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
+    : QWidget(parent)
+    , m_filter(filter)
+    , m_search(new QLineEdit(this))
+{
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(8, 8, 8, 8);
+    layout->setSpacing(4);
+    m_search->setObjectName(QStringLiteral("tableSearch"));
+    m_search->setPlaceholderText(tr("Search name, address, help"));
+    m_search->setToolTip(tr("Search the registers (Ctrl+F)"));
+    m_search->setClearButtonEnabled(true);
+    m_search->addAction(icon(QStringLiteral("search"), IconTint::Dimmed), QLineEdit::LeadingPosition);
+    m_search->setMinimumWidth(140);
+    m_search->installEventFilter(this);
+    layout->addWidget(m_search, 1);
+    layout->addSpacing(4);
+    connect(m_search, &QLineEdit::textChanged, this, [this](const QString &text) {
+        m_filter.setSearch(text);
+        emit filterChanged();
+    });
+
+    const auto connectFilter = [this](QToolButton *button, void (FieldFilterModel::*set)(bool)) {
+        connect(button, &QToolButton::toggled, this, [this, set](bool on) {
+            (m_filter.*set)(on);
+            emit filterChanged();
+        });
+    };
+    connectFilter(addToggle("filterChanged", tr("Changed"), tr("Only what differs from the factory's default")),
+                  &FieldFilterModel::setOnlyChanged);
+    connectFilter(addToggle("filterWritable", tr("Writable"), tr("Only what can be written")),
+                  &FieldFilterModel::setOnlyWritable);
+    connectFilter(addToggle("filterWatched", tr("Plotted"), tr("Only what is being plotted")),
+                  &FieldFilterModel::setOnlyWatched);
+    m_different = addToggle("filterDifferent", tr("Different"), tr("Only settings that differ between the devices"));
+    connectFilter(m_different, &FieldFilterModel::setOnlyDifferent);
+    m_editAll = addToggle("editAll", QString(), QString());
+    m_editAll->setIcon(icon(QStringLiteral("edit")));
+    m_editAll->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    connect(m_editAll, &QToolButton::toggled, this, &TableTools::editAllToggled);
+    setDeviceCount(0);
+}
+
+QToolButton *TableTools::addToggle(const char *objectName, const QString &text, const QString &toolTip)
+{
+    auto *button = new QToolButton(this);
+    button->setObjectName(QString::fromLatin1(objectName));
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setCheckable(true);
+    button->setAutoRaise(true);
+    layout()->addWidget(button);
+    return button;
+}
+
+void TableTools::setDeviceCount(int count)
+{
+    const bool several = count > 1;
+    m_different->setVisible(several);
+    m_editAll->setVisible(several);
+    m_editAll->setText(tr("Apply to all %n", nullptr, count));
+    m_editAll->setToolTip(tr("An edit is written to all %n selected devices", nullptr, count));
+    if (!several) {
+        m_different->setChecked(false);
+        m_editAll->setChecked(false);
+    }
+}
+
+bool TableTools::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == m_search && event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent *>(event)->key();
+        if (key == Qt::Key_Escape)
+            m_search->clear();
+        if (key == Qt::Key_Escape || key == Qt::Key_Down || key == Qt::Key_Return || key == Qt::Key_Enter) {
+            emit leaveSearch();
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace dynascope

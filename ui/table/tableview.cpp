@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/tableview.h"
+
+#include "ui/common/theme.h"
+
+#include <QDrag>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMimeData>
+#include <QPainter>
+
+namespace dynascope {
+namespace {
+
+int defaultWidth(ColumnKind kind)
+{
+    switch (kind) {
+    case ColumnKind::Name: return 204;
+    case ColumnKind::Plot: return 44;
+    case ColumnKind::Address: return 66;
+    case ColumnKind::Value: return 92;
+    case ColumnKind::Physical: return 176;
+    case ColumnKind::Device: return 156;
+    case ColumnKind::Default: return 76;
+    case ColumnKind::Range: return 150;
+    case ColumnKind::Access: return 90;
+    }
+    return 80;
+}
+
+} // namespace
+
+TableView::TableView(QWidget *parent)
+    : QTreeView(parent)
+{
+    setObjectName(QStringLiteral("tableView"));
+    setFrameShape(QFrame::NoFrame);
+    setUniformRowHeights(true);
+    setAllColumnsShowFocus(false);
+    setSelectionMode(QAbstractItemView::ExtendedSelection);
+    setSelectionBehavior(QAbstractItemView::SelectRows);
+    setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
+    setExpandsOnDoubleClick(true);
+    setDragEnabled(true);
+    setDragDropMode(QAbstractItemView::DragOnly);
+    setTextElideMode(Qt::ElideMiddle);
+    setContextMenuPolicy(Qt::CustomContextMenu);
+    setIndentation(16);
+    setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    header()->setStretchLastSection(true);
+    header()->setSectionsMovable(false);
+    header()->setMinimumSectionSize(36);
+    header()->setHighlightSections(false);
+    connect(header(), &QHeaderView::sectionResized, this, [this](int section, int, int size) {
+        const bool isLast = section == header()->count() - 1;
+        if (!m_applying && !isLast && model())
+            m_widths[model()->headerData(section, Qt::Horizontal, KindRole).toInt()] = size;
+    });
+}
+
+void TableView::applyColumnWidths()
+{
+    m_applying = true;
+    for (int section = 0; section + 1 < header()->count(); ++section) {
+        const int kind = model()->headerData(section, Qt::Horizontal, KindRole).toInt();
+        const auto kept = m_widths.find(kind);
+        header()->resizeSection(section, kept != m_widths.end() ? kept->second : defaultWidth(ColumnKind(kind)));
+    }
+    m_applying = false;
+}
+
+void TableView::setColumnWidths(std::map<int, int> widths)
+{
+    m_widths = std::move(widths);
+    if (model())
+        applyColumnWidths();
+}
+
+QModelIndex TableView::editTarget(const QModelIndex &index) const
+{
+    const Field *field = fieldAt(index);
+    if (!field)
+        return {};
+    // Names are picked by name: the raw column is too narrow for them.
+    const bool byName = !field->values.empty() || !field->bits.empty();
+    const ColumnKind kind = kindAt(index);
+    if (kind == ColumnKind::Device || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
+        const bool hasUnit = index.data(EffectiveRole).value<EffectiveField>().unit != Unit::None;
+        if (kind != ColumnKind::Physical || byName || hasUnit)
+            return index;
+    }
+    const bool wantsUnits = byName || index.data(EffectiveRole).value<EffectiveField>().unit != Unit::None;
+    const ColumnKind wanted = wantsUnits ? ColumnKind::Physical : ColumnKind::Value;
+    QModelIndex fallback;
+    for (int column = 0; column < model()->columnCount(); ++column) {
+        const QModelIndex there = index.siblingAtColumn(column);
+        if (kindAt(there) == wanted)
+            return there;
+        if (!fallback.isValid() && isValueKind(kindAt(there)))
+            fallback = there;
+    }
+    return fallback;
+}
+
+bool TableView::edit(const QModelIndex &index, EditTrigger trigger, QEvent *event)
+{
+    const bool asked = trigger == AllEditTriggers || (trigger & editTriggers() & (DoubleClicked | EditKeyPressed));
+    if (!asked)
+        return QTreeView::edit(index, trigger, event);
+    if (!fieldAt(index) || (trigger == DoubleClicked && kindAt(index) == ColumnKind::Plot))
+        return false;
+    const QModelIndex target = editTarget(index);
+    if (!target.isValid() || (m_gate && !m_gate(target)))
+        return false;
+    if (target != currentIndex())
+        selectionModel()->setCurrentIndex(target, QItemSelectionModel::NoUpdate);
+    return QTreeView::edit(target, AllEditTriggers, event);
+}
+
+void TableView::keyPressEvent(QKeyEvent *event)
+{
+    const bool isField = fieldAt(currentIndex()) != nullptr;
+    if (isField && state() != EditingState) {
+        switch (event->key()) {
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+            edit(currentIndex(), AllEditTriggers, event);
+            return;
+        case Qt::Key_Space:
+            emit plotToggled(currentIndex());
+            return;
+        default: break;
+        }
+    }
+    QTreeView::keyPressEvent(event);
+}
+
+QModelIndex TableView::moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers)
+{
+    const QModelIndex current = currentIndex();
+    if (!fieldAt(current) || (action != MoveLeft && action != MoveRight))
+        return QTreeView::moveCursor(action, modifiers);
+    const int step = action == MoveLeft ? -1 : 1;
+    for (int column = current.column() + step; column >= 0 && column < model()->columnCount(); column += step) {
+        const QModelIndex next = current.siblingAtColumn(column);
+        if (isValueKind(kindAt(next)) || column == 0)
+            return next;
+    }
+    return current;
+}
+
+void TableView::drawRow(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
+{
+    if (!fieldAt(index))
+        painter->fillRect(option.rect, colors(option.palette).header);
+    QTreeView::drawRow(painter, option, index);
+}
+
+void TableView::startDrag(Qt::DropActions /*actions*/)
+{
+    // The base class would show a picture of whole rows; a name says it.
+    const QModelIndexList rows = selectionModel()->selectedRows();
+    QMimeData *mime = model()->mimeData(rows);
+    if (!mime)
+        return;
+    const QString name = rows.size() == 1 ? rows.front().data().toString() : tr("%n registers", nullptr, int(rows.size()));
+    const QSize size(fontMetrics().horizontalAdvance(name) + 24, fontMetrics().height() + 12);
+    QPixmap picture(size * devicePixelRatioF());
+    picture.setDevicePixelRatio(devicePixelRatioF());
+    picture.fill(palette().color(QPalette::Highlight));
+    QPainter painter(&picture);
+    painter.setPen(palette().color(QPalette::HighlightedText));
+    painter.setFont(font());
+    painter.drawText(QRect(QPoint(0, 0), size), Qt::AlignCenter, name);
+    painter.end();
+    auto *drag = new QDrag(this); // Qt deletes it when it is over
+    drag->setMimeData(mime);
+    drag->setPixmap(picture);
+    drag->exec(Qt::CopyAction);
+}
+
+} // namespace dynascope
