@@ -4,9 +4,11 @@
 #include "core/bus/linefactory.h"
 #include "core/bus/serialport_posix.h"
 
-#include <QSerialPort>
-
 #include <optional>
+
+QT_BEGIN_NAMESPACE
+class QSerialPort;
+QT_END_NAMESPACE
 
 namespace dynascope {
 
@@ -23,6 +25,7 @@ public:
 
     /// Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
     static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const Options &options);
+    ~SerialLine() override;
 
     QString name() const override { return m_name; }
     LineTime now() const override;
@@ -43,7 +46,7 @@ private:
 
     QString m_name;
     posix::PortGuard m_guard;
-    QSerialPort m_port;
+    std::unique_ptr<QSerialPort> m_port;
     int m_baudRate = 57600;
     LineTime m_hostAllowance{};
     bool m_lost = false;

@@ -12,5 +12,6 @@ if(UNIX)
     target_sources(dynascope_test_support PRIVATE
         support/dxlprocess_posix.cpp support/dxlprocess.h
         support/ptyclient_posix.cpp support/ptyclient.h
+        support/ptymaster_posix.cpp support/ptymaster.h
     )
 endif()
