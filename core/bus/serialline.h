@@ -4,7 +4,9 @@
 #include "core/bus/seriallinefactory.h"
 #include "core/bus/serialport_posix.h"
 
-#include <QSerialPort>
+QT_BEGIN_NAMESPACE
+class QSerialPort;
+QT_END_NAMESPACE
 
 namespace dynascope {
 
@@ -15,6 +17,7 @@ class SerialLine final : public Line
 public:
     /// Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
     static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const SerialOptions &options);
+    ~SerialLine() override;
 
     QString name() const override { return m_name; }
     LineTime now() const override;
@@ -35,7 +38,7 @@ private:
 
     QString m_name;
     posix::PortGuard m_guard;
-    QSerialPort m_port;
+    std::unique_ptr<QSerialPort> m_port;
     int m_baudRate = 57600;
     LineTime m_hostAllowance{};
     bool m_lost = false;

@@ -84,6 +84,13 @@ void Servo::powerCycle()
     boot(m_now);
 }
 
+void Servo::setPlugged(bool plugged)
+{
+    boot(m_now);
+    if (!plugged)
+        m_deafUntil = LineTime::max();
+}
+
 void Servo::boot(LineTime at)
 {
     m_restart = false;

@@ -62,6 +62,7 @@ public:
     DeviceError write(QStringView name, std::int64_t value);      ///< with all checks and effects of a Write
     void setHardwareError(std::uint8_t bits);                     ///< as if it had happened: Alert, Shutdown
     void powerCycle();                                            ///< deaf while it boots
+    void setPlugged(bool plugged);                                ///< without its cable: no power, nobody hears
     /// @}
 
     /// Called after each write that came by the wire and was obeyed.
