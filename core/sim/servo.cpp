@@ -79,11 +79,6 @@ void Servo::setHardwareError(std::uint8_t bits)
     setTorque(false);
 }
 
-void Servo::powerCycle()
-{
-    boot(m_now);
-}
-
 void Servo::setPlugged(bool plugged)
 {
     boot(m_now);
