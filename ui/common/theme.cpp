@@ -16,7 +16,9 @@ namespace dynascope {
 
 namespace {
 
-const QString SchemeKey = QStringLiteral("window/scheme"); ///< 0 as the system, 1 light, 2 dark
+const QString SchemeKey = QStringLiteral("window/scheme");
+const QString LightName = QStringLiteral("light");
+const QString DarkName = QStringLiteral("dark");
 
 /// The colours one palette is made of.
 struct Tones {
@@ -162,13 +164,17 @@ void applyTheme(QApplication &application, ColorScheme scheme)
 
 ColorScheme savedColorScheme()
 {
-    const int saved = QSettings().value(SchemeKey).toInt();
-    return saved == 1 ? ColorScheme::Light : saved == 2 ? ColorScheme::Dark : ColorScheme::System;
+    const QString saved = QSettings().value(SchemeKey).toString();
+    if (saved == LightName)
+        return ColorScheme::Light;
+    return saved == DarkName ? ColorScheme::Dark : ColorScheme::System;
 }
 
 void saveColorScheme(ColorScheme scheme)
 {
-    QSettings().setValue(SchemeKey, static_cast<int>(scheme));
+    QSettings().setValue(SchemeKey, scheme == ColorScheme::Light ? LightName
+                             : scheme == ColorScheme::Dark       ? DarkName
+                                                                 : QStringLiteral("system"));
 }
 
 const ThemeColors &colors(const QPalette &palette)
