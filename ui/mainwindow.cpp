@@ -195,7 +195,13 @@ void MainWindow::onLines()
     const bool any = std::ranges::any_of(lines, [](const auto &each) {
         return each->state() == BusThread::State::Open || !each->devices().empty();
     });
-    m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+    if (any != (m_pages->currentWidget() == m_outer)) {
+        // What had the focus hides; it must not fall to the next in the chain, perhaps STOP.
+        setFocus();
+        m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+        if (any)
+            focusPane(0);
+    }
     setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
     countDevices();
 }

@@ -104,10 +104,11 @@ constexpr std::size_t RoundCount = 3; ///< a hue comes again darker or lighter b
 
 using TraceTable = std::array<QColor, HueCount * RoundCount>;
 
-/// Moves the lightness away from the background until a thin line shows on it (WCAG 1.4.11: 3:1).
+/// Moves the lightness away from the background until a thin line shows on it (WCAG 1.4.11 asks for 3:1; on a dark
+/// ground a thin line needs more).
 QColor readable(QColor color, const QColor &background, bool dark)
 {
-    for (int i = 0; i < 60 && contrastRatio(color, background) < 3.0; ++i) {
+    for (int i = 0; i < 60 && contrastRatio(color, background) < (dark ? 4.5 : 3.0); ++i) {
         const float lightness = color.lightnessF() + (dark ? 0.02F : -0.02F);
         color = QColor::fromHslF(color.hslHueF(), color.hslSaturationF(), qBound(0.0F, lightness, 1.0F));
     }
