@@ -2,7 +2,7 @@
 #include "app/dxl/connection.h"
 
 #include "app/dxl/options.h"
-#include "core/bus/seriallinefactory.h"
+#include "core/bus/serialline.h"
 
 #include <cstdio>
 

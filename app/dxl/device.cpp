@@ -73,11 +73,6 @@ Result<Bytes> Device::read(int address, int length)
     auto reply = dynascope::read(m_bus, {m_id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
     if (!reply)
         return tl::unexpected(reply.error());
-    if (reply->data.size() != static_cast<std::size_t>(length)) {
-        return failure(ErrorKind::NotConfirmed,
-                       QStringLiteral("%1 answers Ping only, since its Status Return Level is 0; write "
-                                      "Status_Return_Level=2 to read it").arg(name()));
-    }
     return std::move(reply->data);
 }
 

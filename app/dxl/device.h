@@ -20,6 +20,7 @@ public:
     Bus &bus() const { return m_bus; }
     std::uint8_t id() const { return m_id; }
     std::uint16_t modelNumber() const { return m_modelNumber; }
+    bool isIdentified() const { return !m_model.isEmpty(); }
     QString name() const; ///< "XM430-W350 (ID 1)"
     const ControlTable *table() const { return m_table.get(); }
 

@@ -50,7 +50,9 @@ ExitCode readCommand(const Work &work)
         const auto done = readOne(work.output, device, registers[i], fields[i]);
         if (done)
             continue;
-        code = showFailure(work.output, device, registers[i], withAdvice(done.error(), work.options));
+        // Who answered the Ping is at the right baud rate.
+        const Error error = device.isIdentified() ? done.error() : withAdvice(done.error(), work.options);
+        code = showFailure(work.output, device, registers[i], error);
         if (done.error().kind != ErrorKind::Refused)
             break; // whoever is silent once would let each further register wait
     }

@@ -51,10 +51,12 @@ Result<std::size_t> scanAt(const Work &work, int baud)
 {
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
-    const IdRange &ids = work.options.ids;
-    const auto found = scanBaud(work.bus, ids.first, ids.last, [&](const Found &device) { print(work, device); });
+    // Printed when the rate is done: what makes an answer doubtful comes after it.
+    const auto found = scanBaud(work.bus, work.options.ids.first, work.options.ids.last, {});
     if (!found)
         return tl::unexpected(found.error());
+    for (const Found &device : *found)
+        print(work, device);
     return found->size();
 }
 

@@ -120,7 +120,7 @@ ExitCode writeCommand(const Work &work)
     device.forget();
     for (const Assignment &assignment : assignments) {
         if (const auto done = writeOne(work.output, device, assignment); !done)
-            return showFailure(work.output, device, assignment.argument, withAdvice(done.error(), work.options));
+            return showFailure(work.output, device, assignment.argument, done.error());
     }
     return ExitCode::Done;
 }

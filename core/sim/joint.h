@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QString>
+#include "core/sim/controller.h"
+#include "core/sim/plant.h"
+#include "core/sim/profile.h"
 
 #include <cstdint>
 
 namespace dynascope::sim {
-
-/// The electric motor with its gearbox, at the output shaft, as data sheets state it. See motor.h for the models.
-struct MotorModel;
 
 /// The registers that steer motion, in the manufacturer's raw units.
 struct JointSettings {
@@ -50,29 +49,61 @@ public:
 
     void configure(const JointSettings &settings); ///< after any of those registers was written
     const JointSettings &settings() const { return m_settings; }
+    /// Turning on holds still, in position and velocity modes, until a goal is set; Goal PWM and Goal Current act at once.
     void setTorque(bool on);
     bool torque() const { return m_torque; }
-    /// Begins a profile from where the trajectory is now. In the same frame as JointState::position.
+    /// Begins a profile from where the trajectory is now. In the same frame as JointState::position. Without torque, or in
+    /// a mode without positions, nothing.
     void setGoalPosition(std::int32_t pulses);
     void setGoalVelocity(int raw); ///< velocity mode: uses Profile Acceleration alone
-    void stopMotion();             ///< Bus Watchdog: hold still
+    void stopMotion(); ///< Bus Watchdog: hold still until a goal is set or changes, or endStop()
+    void endStop() { m_stopped = m_resting = false; } ///< Goal PWM and Goal Current act again
+    /// Power-on, or torque on in Position mode: whole turns are forgotten, position is 0..4095 again. Nothing moves.
+    void reduceToOneTurn();
 
     JointState state() const;
 
     /// @name The world around it
     /// @{
     void setLoadTorque(double newtonMetres); ///< constant external torque
-    void setGravityArm(double newtonMetresAtHorizontal); ///< torque × cos(angle); 0: none
+    /// Pulls with torque × cos(angle) towards −90° (270°), horizontal being 0° and 180°; 0: none.
+    void setGravityArm(double newtonMetresAtHorizontal);
     void setExtraInertia(double kilogramSquareMetres);
     void setSupplyVoltage(double volts);
     void setAmbientTemperature(double celsius);
     void setShaftAngle(double degrees); ///< jump there; for starting positions
     /// @}
 
-    // The owner of this file chooses the representation.
 private:
+    void tick();
+    void hold();
+    void heat(std::int64_t ticks);
+    void watchLoad();
+    int noise(std::uint64_t channel) const;
+    double present() const;
+    double presentVelocity() const;
+    TrajectoryPoint trajectory() const;
+    ProfileLimits limits() const;
+    bool profileOngoing() const;
+    std::uint8_t movingStatus() const;
+    bool positionMode() const { return m_settings.operatingMode >= 3 && m_settings.operatingMode <= 5; }
+    double direction() const { return m_settings.driveMode & 1 ? -1.0 : 1.0; }
+
     JointSettings m_settings;
-    bool m_torque = false;
+    Plant m_plant;
+    Warmth m_warmth;
+    Controller m_controller;
+    PositionProfile m_profile;
+    VelocityRamp m_ramp;
+    std::uint64_t m_seed;
+    std::int64_t m_tick = 0;  ///< ms on the bus's clock; what comes in between two of them acts from the later on
+    std::int64_t m_start = 0; ///< of the profile or ramp
+    double m_velocity = 0;    ///< pulses/ms, the estimate, in the shaft's direction
+    double m_pwm = 0;         ///< raw, as the register
+    double m_copperHeat = 0, m_bodyHeat = 0; ///< W × ms since the temperatures were last reckoned
+    int m_heatTicks = 0, m_overloadTicks = 0;
+    bool m_torque = false, m_stopped = false;
+    bool m_resting = false; ///< the next tick would change nothing but temperatures
 };
 
 } // namespace dynascope::sim

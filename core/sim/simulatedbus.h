@@ -11,6 +11,10 @@
 namespace dynascope::sim {
 
 class Servo;
+class Wire;
+struct Reaction;
+struct Transmission;
+struct Chain;
 
 /// One servo of a simulated bus: MODEL[/FIRMWARE]@BAUD:ID.
 struct ServoSpec {
@@ -33,6 +37,14 @@ struct WireEntry {
     Bytes bytes;
 };
 
+/// What goes wrong with the next replies, whoever sends them.
+struct ReplyFaults {
+    int drop = 0;    ///< so many are never sent
+    int corrupt = 0; ///< so many have a bit turned, so that their CRC is wrong
+    int delay = 0;   ///< so many come `lateness` later
+    LineTime lateness{};
+};
+
 /// Virtual servos on one virtual half-duplex wire. They hear the controller and each other (the chain rule needs that);
 /// those at another baud rate than a sender's hear garbage. No clock of its own: time comes with each call and never
 /// goes back. Any one thread.
@@ -41,6 +53,9 @@ class SimulatedBus
 public:
     explicit SimulatedBus(const Catalog &catalog, std::uint64_t seed = 1); ///< `catalog` outlives the bus
     ~SimulatedBus();
+
+    /// Where the clock of the calls stands, before anything is sent. Time starts at 0 otherwise.
+    void beginAt(LineTime now);
 
     Result<Servo *> add(const ServoSpec &spec);
     const std::vector<std::unique_ptr<Servo>> &servos() const { return m_servos; }
@@ -51,22 +66,46 @@ public:
 
     /// Bytes that reach a controller listening at `baudRate` up to and including `now`, each once, appended to `to`.
     void receive(Bytes &to, LineTime now, int baudRate);
-    /// When the next byte will have come, if any is on its way.
+    /// No byte comes before this moment, which is later than that of the last receive(); nothing where none is on
+    /// its way. A later receive() may find that what was to come has been a device's silence.
     std::optional<LineTime> nextArrival() const;
+    /// When all bytes under way will have come: whoever hands replies on in pieces waits for this.
+    std::optional<LineTime> quietAt() const;
     void discardArrived(LineTime now);
 
-    /// Motion, watchdogs, boot: up to `now`. send() and receive() do it by themselves.
+    /// Everything up to `now`, motion included. send() and receive() do it for those who are spoken to.
     void advanceTo(LineTime now);
+    LineTime now() const { return m_now; } ///< the latest of all calls
+
+    ReplyFaults &faults() { return m_faults; }
 
     void setLogging(bool on);
     const std::vector<WireEntry> &log() const { return m_log; }
     void clearLog() { m_log.clear(); }
 
 private:
+    struct Scheduled;
+    void runTo(LineTime now);
+    void hearController(const Transmission &sent);
+    void hearServo(const Transmission &sent);
+    void plan(std::vector<std::pair<Servo *, Reaction>> reactions);
+    void planPings(std::vector<std::pair<Servo *, Reaction>> pings);
+    void joinChain(Servo *servo, Reaction reaction);
+    void continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from);
+    void schedule(Scheduled reply);
+    void begin(Scheduled &reply);
+    void interrupt(const Servo *servo);
+
     const Catalog &m_catalog;
+    std::uint64_t m_seed;
     std::vector<std::unique_ptr<Servo>> m_servos;
+    std::unique_ptr<Wire> m_wire;
+    std::vector<Scheduled> m_scheduled;
+    std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet
+    LineTime m_now{}, m_controllerFree{};
+    ReplyFaults m_faults;
     std::vector<WireEntry> m_log;
-    // The owner of this file chooses the rest.
+    bool m_logging = false;
 };
 
 } // namespace dynascope::sim

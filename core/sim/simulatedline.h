@@ -37,6 +37,7 @@ private:
     bool m_echo = false;
     bool m_unplugged = false;
     Bytes m_echoed;
+    LineTime m_echoAt{}; ///< when the last of them has left
 };
 
 } // namespace dynascope::sim

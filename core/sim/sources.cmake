@@ -1,2 +1,28 @@
 target_sources(dynascope_core PRIVATE
+    sim/controller.cpp sim/controller.h
+    sim/joint.cpp sim/joint.h
+    sim/motor.cpp sim/motor.h
+    sim/plant.cpp sim/plant.h
+    sim/profile.cpp sim/profile.h
 )
+target_sources(dynascope_core PRIVATE
+    sim/baudmismatch.cpp sim/baudmismatch.h
+    sim/demoscript.cpp sim/demoscript.h
+    sim/groupreply.cpp sim/groupreply.h
+    sim/motionregisters.cpp sim/motionregisters.h
+    sim/registerfile.cpp sim/registerfile.h
+    sim/servo.cpp sim/servo.h sim/servocommands.cpp sim/servosettings.h sim/servowrites.cpp
+    sim/servospecs.cpp
+    sim/simulatedbus.cpp sim/simulatedbus.h
+    sim/simulatedline.cpp sim/simulatedline.h
+    sim/wire.cpp sim/wire.h
+)
+if(UNIX)
+    target_sources(dynascope_core PRIVATE
+        sim/demo.cpp sim/demo.h
+        sim/packetassembler.cpp sim/packetassembler.h
+        sim/pseudoterminal_posix.cpp sim/pseudoterminal.h
+        sim/ptybaud_posix.cpp sim/ptybaud.h
+        sim/ptyserver_posix.cpp sim/ptyserver.h
+    )
+endif()

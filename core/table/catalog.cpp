@@ -14,6 +14,7 @@ namespace dynascope {
 namespace {
 
 constexpr int FormatVersion = 1;
+constexpr int MostModels = 64; ///< in one file
 
 tl::unexpected<Error> bad(const QString &name, const QString &text)
 {
@@ -52,7 +53,8 @@ Result<std::vector<std::pair<QString, QByteArray>>> readFolder(const QString &pa
     std::vector<std::pair<QString, QByteArray>> ordered;
     QStringList done{QString()};
     while (!pending.empty()) {
-        auto next = std::find_if(pending.begin(), pending.end(), [&](const Pending &p) { return done.contains(p.extends); });
+        auto next =
+            std::find_if(pending.begin(), pending.end(), [&](const Pending &p) { return done.contains(p.extends); });
         if (next == pending.end())
             next = pending.begin(); // adding it will say what is missing
         done.append(stem(next->name));
@@ -96,10 +98,13 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
     if (file.contains(u"extends")) {
         const auto found = m_files.find(file.value(u"extends").toString());
         if (found == m_files.end())
-            return bad(name, QStringLiteral("extends \"%1\", which is not there").arg(file.value(u"extends").toString()));
+            return bad(
+                name, QStringLiteral("extends \"%1\", which is not there").arg(file.value(u"extends").toString()));
         base = found->second;
     }
     const QJsonObject models = file.value(u"models").toObject();
+    if (models.size() > MostModels)
+        return bad(name, QStringLiteral("more than %1 models").arg(MostModels));
     for (const char16_t *key : {u"format", u"extends", u"models"})
         file.remove(QStringView(key));
     const QJsonObject settings = merged(base, file, &wrong);
@@ -131,11 +136,10 @@ QString Catalog::addModel(const QString &name, const QJsonObject &settings, cons
         return QStringLiteral("%1: this name or the number %2 is taken").arg(name).arg(built.modelNumber);
     m_models.push_back({built.modelNumber, built.model, built.series, builder.newestFirmware()});
     std::sort(m_models.begin(), m_models.end(),
-              [](const ModelInfo &a, const ModelInfo &b) { return a.modelNumber < b.modelNumber; });
+        [](const ModelInfo &a, const ModelInfo &b) { return a.modelNumber < b.modelNumber; });
     m_tables.insert(m_tables.end(), tables.begin(), tables.end());
-    std::stable_sort(m_tables.begin(), m_tables.end(), [](const ControlTablePtr &a, const ControlTablePtr &b) {
-        return a->modelNumber() < b->modelNumber();
-    });
+    std::stable_sort(m_tables.begin(), m_tables.end(),
+        [](const ControlTablePtr &a, const ControlTablePtr &b) { return a->modelNumber() < b->modelNumber(); });
     return {};
 }
 
@@ -152,15 +156,15 @@ ControlTablePtr Catalog::find(int modelNumber, int firmware) const
 const Catalog::ModelInfo *Catalog::model(QStringView name) const
 {
     const QString wanted = normalizedName(name);
-    const auto found = std::find_if(m_models.begin(), m_models.end(),
-                                    [&](const ModelInfo &info) { return normalizedName(info.model) == wanted; });
+    const auto found = std::find_if(
+        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return normalizedName(info.model) == wanted; });
     return found == m_models.end() ? nullptr : &*found;
 }
 
 const Catalog::ModelInfo *Catalog::model(int modelNumber) const
 {
-    const auto found = std::find_if(m_models.begin(), m_models.end(),
-                                    [&](const ModelInfo &info) { return info.modelNumber == modelNumber; });
+    const auto found = std::find_if(
+        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return info.modelNumber == modelNumber; });
     return found == m_models.end() ? nullptr : &*found;
 }
 

@@ -7,7 +7,6 @@
 namespace dynascope {
 namespace {
 
-/// Where a name can be typed: what it is called in a message.
 QString oneOf(const QStringList &names)
 {
     return names.join(QStringLiteral(", "));
@@ -29,33 +28,56 @@ constexpr double DegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// Compared in lower case and without spaces. The first of each unit are the ones that messages offer.
 constexpr TypedUnit TypedUnits[] = {
-    {u"deg", Unit::Pulse, 1.0}, {u"rad", Unit::Pulse, DegreesPerRadian}, {u"turn", Unit::Pulse, 360.0},
-    {u"°", Unit::Pulse, 1.0}, {u"degree", Unit::Pulse, 1.0}, {u"degrees", Unit::Pulse, 1.0},
-    {u"turns", Unit::Pulse, 360.0}, {u"rev", Unit::Pulse, 360.0},
-    {u"rpm", Unit::RevPerMin, 1.0}, {u"deg/s", Unit::RevPerMin, 1.0 / 6.0},
-    {u"rad/s", Unit::RevPerMin, DegreesPerRadian / 6.0}, {u"rev/min", Unit::RevPerMin, 1.0},
-    {u"°/s", Unit::RevPerMin, 1.0 / 6.0}, {u"rev/s", Unit::RevPerMin, 60.0},
-    {u"rev/min2", Unit::RevPerMin2, 1.0}, {u"deg/s2", Unit::RevPerMin2, 10.0},
-    {u"rad/s2", Unit::RevPerMin2, 10.0 * DegreesPerRadian}, {u"rev/min²", Unit::RevPerMin2, 1.0},
-    {u"rev/min^2", Unit::RevPerMin2, 1.0}, {u"rpm2", Unit::RevPerMin2, 1.0}, {u"rpm²", Unit::RevPerMin2, 1.0},
-    {u"deg/s²", Unit::RevPerMin2, 10.0}, {u"°/s²", Unit::RevPerMin2, 10.0}, {u"deg/s^2", Unit::RevPerMin2, 10.0},
-    {u"rad/s²", Unit::RevPerMin2, 10.0 * DegreesPerRadian}, {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
-    {u"mA", Unit::MilliAmpere, 1.0}, {u"A", Unit::MilliAmpere, 1000.0},
-    {u"%", Unit::Percent, 1.0}, {u"percent", Unit::Percent, 1.0},
-    {u"V", Unit::Volt, 1.0}, {u"mV", Unit::Volt, 0.001},
-    {u"°C", Unit::Celsius, 1.0}, {u"C", Unit::Celsius, 1.0}, {u"degC", Unit::Celsius, 1.0},
-    {u"us", Unit::Microsecond, 1.0}, {u"ms", Unit::Microsecond, 1000.0}, {u"s", Unit::Microsecond, 1e6},
-    {u"ms", Unit::Millisecond, 1.0}, {u"s", Unit::Millisecond, 1000.0}, {u"us", Unit::Millisecond, 0.001},
-    {u"mV/ms", Unit::MilliVoltPerMs, 1.0}, {u"V/s", Unit::MilliVoltPerMs, 1.0},
+    {u"deg", Unit::Pulse, 1.0},
+    {u"rad", Unit::Pulse, DegreesPerRadian},
+    {u"turn", Unit::Pulse, 360.0},
+    {u"°", Unit::Pulse, 1.0},
+    {u"degree", Unit::Pulse, 1.0},
+    {u"degrees", Unit::Pulse, 1.0},
+    {u"turns", Unit::Pulse, 360.0},
+    {u"rev", Unit::Pulse, 360.0},
+    {u"rpm", Unit::RevPerMin, 1.0},
+    {u"deg/s", Unit::RevPerMin, 1.0 / 6.0},
+    {u"rad/s", Unit::RevPerMin, DegreesPerRadian / 6.0},
+    {u"rev/min", Unit::RevPerMin, 1.0},
+    {u"°/s", Unit::RevPerMin, 1.0 / 6.0},
+    {u"rev/s", Unit::RevPerMin, 60.0},
+    {u"rev/min2", Unit::RevPerMin2, 1.0},
+    {u"deg/s2", Unit::RevPerMin2, 10.0},
+    {u"rad/s2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"rev/min²", Unit::RevPerMin2, 1.0},
+    {u"rev/min^2", Unit::RevPerMin2, 1.0},
+    {u"rpm2", Unit::RevPerMin2, 1.0},
+    {u"rpm²", Unit::RevPerMin2, 1.0},
+    {u"deg/s²", Unit::RevPerMin2, 10.0},
+    {u"°/s²", Unit::RevPerMin2, 10.0},
+    {u"deg/s^2", Unit::RevPerMin2, 10.0},
+    {u"rad/s²", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"mA", Unit::MilliAmpere, 1.0},
+    {u"A", Unit::MilliAmpere, 1000.0},
+    {u"%", Unit::Percent, 1.0},
+    {u"percent", Unit::Percent, 1.0},
+    {u"V", Unit::Volt, 1.0},
+    {u"mV", Unit::Volt, 0.001},
+    {u"°C", Unit::Celsius, 1.0},
+    {u"C", Unit::Celsius, 1.0},
+    {u"degC", Unit::Celsius, 1.0},
+    {u"us", Unit::Microsecond, 1.0},
+    {u"ms", Unit::Microsecond, 1000.0},
+    {u"s", Unit::Microsecond, 1e6},
+    {u"ms", Unit::Millisecond, 1.0},
+    {u"s", Unit::Millisecond, 1000.0},
+    {u"us", Unit::Millisecond, 0.001},
+    {u"mV/ms", Unit::MilliVoltPerMs, 1.0},
+    {u"V/s", Unit::MilliVoltPerMs, 1.0},
 };
 
 QString lowered(QStringView text)
 {
     QString plain;
     for (QChar c : text) {
-        if (c == u'μ') // the Greek letter and the micro sign both mean u
-            c = u'u';
-        if (c == u'µ')
+        if (c == u'\u03BC' || c == u'\u00B5') // the Greek letter and the micro sign
             c = u'u';
         if (!c.isSpace())
             plain.append(c.toLower());
@@ -80,7 +102,8 @@ struct Leading {
     double value = 0;
     bool whole = false; ///< digits alone: `integer` holds
     std::int64_t integer = 0;
-    QString rest;
+    QString rest; ///< as typed
+    QString unit; ///< the same, to be compared
 };
 
 /// Digits, a point, an exponent; nothing that a locale could change.
@@ -120,7 +143,8 @@ std::optional<Leading> leadingNumber(QStringView text)
         return std::nullopt; // too large for a double
     if (number.whole)
         number.integer = text.first(at).toLongLong(&number.whole);
-    number.rest = lowered(text.sliced(at));
+    number.rest = text.sliced(at).trimmed().toString();
+    number.unit = lowered(number.rest);
     return number;
 }
 
@@ -139,15 +163,15 @@ std::optional<std::int64_t> hexadecimal(QStringView text)
     return negative ? -number : number;
 }
 
-Result<std::int64_t> fromUnit(const Field &field, const EffectiveField &effective, int resolution,
-                              const Leading &number)
+Result<std::int64_t> fromUnit(
+    const Field &field, const EffectiveField &effective, int resolution, const Leading &number)
 {
     if (effective.unit == Unit::None)
         return refuse(QStringLiteral("%1 has no unit; give a bare number").arg(field.name));
-    if (effective.unit == Unit::Pulse && (number.rest == u"pulse" || number.rest == u"pulses"))
+    if (effective.unit == Unit::Pulse && (number.unit == u"pulse" || number.unit == u"pulses"))
         return rawFromPhysical(effective, resolution, number.value, AngleUnit::Pulses);
     for (const TypedUnit &typed : TypedUnits) {
-        if (typed.unit == effective.unit && lowered(QString::fromUtf16(typed.text)) == number.rest)
+        if (typed.unit == effective.unit && lowered(QString::fromUtf16(typed.text)) == number.unit)
             return rawFromPhysical(effective, resolution, number.value * typed.factor);
     }
     return refuse(QStringLiteral("\"%1\" does not fit %2; it takes %3, or a bare number for the register's own value")
@@ -155,8 +179,8 @@ Result<std::int64_t> fromUnit(const Field &field, const EffectiveField &effectiv
 }
 
 /// The value whose name this is, or that alone begins so.
-std::optional<std::int64_t> byName(const std::vector<EnumValue> &values, const QString &plain,
-                                   std::optional<std::int64_t> preferred)
+std::optional<std::int64_t> byName(
+    const std::vector<EnumValue> &values, const QString &plain, std::optional<std::int64_t> preferred)
 {
     const EnumValue *begins = nullptr;
     bool several = false;
@@ -165,7 +189,7 @@ std::optional<std::int64_t> byName(const std::vector<EnumValue> &values, const Q
         const QString name = normalizedName(value.text);
         if (name == plain && (!exact || value.value == preferred))
             exact = &value;
-        if (!plain.isEmpty() && name.startsWith(plain)) {
+        if (plain.size() >= 3 && name.startsWith(plain)) { // short enough to type, too long for an accident
             several = several || (begins && normalizedName(begins->text) != name);
             if (!begins || value.value == preferred)
                 begins = &value;
@@ -210,13 +234,16 @@ std::optional<std::int64_t> bitByName(const Field &field, const QString &plain)
     return std::nullopt;
 }
 
+/// What may be typed instead of a number.
 QStringList namesOf(const Field &field)
 {
     QStringList names;
     for (const EnumValue &value : field.values)
         names.append(value.text);
     for (const EnumValue &value : field.special) {
-        if (!names.contains(value.text))
+        const bool settable = value.value >= field.minimum.number.value_or(value.value)
+            && value.value <= field.maximum.number.value_or(value.value);
+        if (settable && !names.contains(value.text))
             names.append(value.text);
     }
     for (const BitField &bit : field.bits) {
@@ -278,7 +305,7 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
 {
     if (const auto value = hexadecimal(text))
         return *value;
-    // Names first where names begin with digits ("57600 bps"), but a bare number is always the raw value.
+    // A bare number is always the raw value; names that begin with digits ("57600 bps") come before units.
     const std::optional<Leading> number = leadingNumber(text);
     if (!number)
         return fromName(field, effective, text);
@@ -286,9 +313,9 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
         if (number->whole)
             return number->integer;
         return refuse(effective.unit == Unit::None
-                          ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
-                          : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
-                                .arg(field.name, typableUnits(effective.unit), text));
+                ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
+                : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
+                      .arg(field.name, typableUnits(effective.unit), text));
     }
     if (!namesOf(field).isEmpty()) {
         const Result<std::int64_t> value = fromName(field, effective, text);
@@ -300,18 +327,17 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
 
 } // namespace
 
-Result<std::int64_t> parseValue(const Field &field, const EffectiveField &effective, int resolution, QStringView text,
-                                AngleUnit angle)
+Result<std::int64_t> parseValue(
+    const Field &field, const EffectiveField &effective, int resolution, QStringView text, AngleUnit angle)
 {
-    Q_UNUSED(angle) // what a bare number means doesn't depend on how positions are shown
     QString trimmed = text.trimmed().toString();
-    trimmed.replace(u'−', u'-'); // the typographic minus, as it comes from copied text
+    trimmed.replace(u'\u2212', u'-'); // the typographic minus, as it comes from copied text
     if (trimmed.isEmpty())
         return refuse(QStringLiteral("%1 needs a value").arg(field.name));
     const Result<std::int64_t> raw = unchecked(field, effective, resolution, trimmed);
     if (!raw)
         return raw;
-    const Result<void> inRange = checkRange(field, effective, *raw);
+    const Result<void> inRange = checkRange(field, effective, *raw, resolution, angle);
     if (!inRange)
         return tl::unexpected<Error>(inRange.error());
     return raw;

@@ -58,6 +58,11 @@ QString bitsMeaning(const Field &field, std::int64_t raw)
     return names.isEmpty() ? QStringLiteral("None") : names.join(QStringLiteral(", "));
 }
 
+QString fixed(const Physical &shown)
+{
+    return QString::number(shown.value, 'f', shown.decimals);
+}
+
 QString listed(const std::vector<EnumValue> &values)
 {
     QStringList texts;
@@ -125,8 +130,8 @@ QString meaning(const Field &field, std::int64_t raw)
     return field.bits.empty() ? QString() : bitsMeaning(field, raw);
 }
 
-QString valueText(const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw,
-                  AngleUnit angle)
+QString valueText(
+    const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw, AngleUnit angle)
 {
     const QString name = meaning(field, raw);
     if (!name.isEmpty())
@@ -134,29 +139,36 @@ QString valueText(const Field &field, const EffectiveField &effective, int resol
     if (effective.unit == Unit::None)
         return QString::number(raw);
     const Physical shown = physical(effective, resolution, raw, angle);
-    return QString::number(shown.value, 'f', shown.decimals) + u' ' + shown.unit;
+    return fixed(shown) + u' ' + shown.unit;
 }
 
 Result<void> checkRange(const Field &field, const EffectiveField &effective, std::int64_t raw)
 {
+    return checkRange(field, effective, raw, 1, AngleUnit::Pulses);
+}
+
+Result<void> checkRange(
+    const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution, AngleUnit angle)
+{
     if (!field.values.empty() && !named(field.values, raw)) {
         return failure(ErrorKind::InvalidArgument,
-                       QStringLiteral("%1 can't be %2; it is one of %3").arg(field.name).arg(raw).arg(
-                           listed(field.values)));
+            QStringLiteral("%1 can't be %2; it is one of %3").arg(field.name).arg(raw).arg(listed(field.values)));
     }
     const std::int64_t low = std::max(effective.minimum.value_or(smallestRaw(field)), smallestRaw(field));
     const std::int64_t high = std::min(effective.maximum.value_or(largestRaw(field)), largestRaw(field));
     if (raw >= low && raw <= high)
         return {};
+    QString value = QString::number(raw);
     QString range = QStringLiteral("%1 to %2").arg(low).arg(high);
-    if (effective.unit != Unit::None && effective.unit != Unit::Pulse) {
-        const Physical from = physical(effective, 1, low);
-        const Physical to = physical(effective, 1, high);
-        range += QStringLiteral(" (%1 to %2 %3)").arg(from.value, 0, 'f', from.decimals).arg(
-            to.value, 0, 'f', to.decimals).arg(to.unit);
+    if (!unitSymbol(effective.unit, angle).isEmpty() && unitSymbol(effective.unit, angle) != u"pulse") {
+        const Physical from = physical(effective, resolution, low, angle);
+        const Physical to = physical(effective, resolution, high, angle);
+        const Physical wanted = physical(effective, resolution, raw, angle);
+        value += QStringLiteral(" (%1 %2)").arg(fixed(wanted), wanted.unit);
+        range += QStringLiteral(" (%1 to %2 %3)").arg(fixed(from), fixed(to), to.unit);
     }
-    return failure(ErrorKind::InvalidArgument,
-                   QStringLiteral("%1 can't be %2; its range is %3").arg(field.name).arg(raw).arg(range));
+    return failure(
+        ErrorKind::InvalidArgument, QStringLiteral("%1 can't be %2; its range is %3").arg(field.name, value, range));
 }
 
 } // namespace dynascope

@@ -37,5 +37,8 @@ Result<std::int64_t> parseValue(const Field &field, const EffectiveField &effect
                                 AngleUnit angle = AngleUnit::Degrees);
 /// Is `raw` allowed? The message names the register and its range.
 Result<void> checkRange(const Field &field, const EffectiveField &effective, std::int64_t raw);
+/// The same, and for positions the message also says the angles.
+Result<void> checkRange(const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution,
+                        AngleUnit angle = AngleUnit::Degrees);
 
 } // namespace dynascope

@@ -30,6 +30,13 @@ Ink ink(const QPixmap &pixmap)
     return result;
 }
 
+/// Drawing into a premultiplied image may cost a step or two.
+bool isNearly(const QColor &one, const QColor &other)
+{
+    return qAbs(one.red() - other.red()) < 5 && qAbs(one.green() - other.green()) < 5
+        && qAbs(one.blue() - other.blue()) < 5;
+}
+
 } // namespace
 
 class TestIcons : public QObject
@@ -56,9 +63,9 @@ private slots:
             applyTheme(*qApp, scheme);
             const Ink normal = ink(icon(name).pixmap(QSize(80, 80), 1.0));
             QVERIFY2(normal.pixels > 50, qPrintable(QString::number(normal.pixels)));
-            QCOMPARE(normal.color, dynascope::palette(scheme).color(QPalette::ButtonText));
+            QVERIFY(isNearly(normal.color, dynascope::palette(scheme).color(QPalette::ButtonText)));
             const Ink disabled = ink(icon(name).pixmap(QSize(80, 80), 1.0, QIcon::Disabled));
-            QCOMPARE(disabled.color, dynascope::palette(scheme).color(QPalette::Disabled, QPalette::ButtonText));
+            QVERIFY(isNearly(disabled.color, dynascope::palette(scheme).color(QPalette::Disabled, QPalette::ButtonText)));
         }
     }
 
@@ -69,7 +76,7 @@ private slots:
         applyTheme(*qApp, ColorScheme::Dark);
         const QColor dark = ink(kept.pixmap(QSize(80, 80), 1.0)).color;
         QVERIFY(light != dark);
-        QCOMPARE(dark, colors(dynascope::palette(ColorScheme::Dark)).warning);
+        QVERIFY(isNearly(dark, colors(dynascope::palette(ColorScheme::Dark)).warning));
     }
 
     void isSharpOnAFineScreen()
@@ -86,7 +93,7 @@ private slots:
         QPainter painter(&target);
         paintIcon(&painter, QRectF(0, 0, 40, 40), QStringLiteral("servo"), Qt::red);
         painter.end();
-        QCOMPARE(ink(target).color, QColor(Qt::red));
+        QVERIFY(isNearly(ink(target).color, Qt::red));
     }
 
     void saysWhatIsMissing()

@@ -1,6 +1,10 @@
 target_sources(dynascope_ui PRIVATE
+    common/elidedlabel.cpp common/elidedlabel.h
     common/flatstyle.cpp common/flatstyle.h
     common/icons.cpp common/icons.h
+    common/messagebar.cpp common/messagebar.h
+    common/stopkey.cpp common/stopkey.h
+    common/texts.cpp common/texts.h
     common/theme.cpp common/theme.h
     common/watchmime.cpp common/watchmime.h
 )

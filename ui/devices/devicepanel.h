@@ -6,7 +6,15 @@
 
 #include <QWidget>
 
+class QLabel;
+class QPushButton;
+class QStackedWidget;
+class QTreeView;
+
 namespace dynascope {
+
+class DeviceActions;
+class DeviceTreeModel;
 
 /// Line → baud → device, live as a scan finds them, with the devices' actions.
 class DevicePanel : public QWidget
@@ -18,10 +26,31 @@ public:
 
     std::vector<Device *> selectedDevices() const;
     void selectDevice(Device *device);
+    DeviceActions &actions() const { return *m_actions; }
 
 signals:
+    void scanRequested(); ///< from the empty view
+    void connectRequested();
     void selectionChanged();
     void message(const QString &text);
+
+private:
+    QWidget *makeHeader();
+    QWidget *makeEmptyView();
+    void makeTree();
+    void showContextMenu(const QPoint &position);
+    void onSelection();
+    void onDeviceAdded(Device *device);
+    void updateEmptyView();
+
+    Workbench m_workbench;
+    DeviceActions *m_actions;
+    DeviceTreeModel *m_model;
+    QTreeView *m_tree;
+    QStackedWidget *m_stack;
+    QWidget *m_row;
+    QLabel *m_emptyText;
+    QPushButton *m_emptyAction;
 };
 
 } // namespace dynascope

@@ -1,2 +1,11 @@
 target_sources(dynascope_ui PRIVATE
+    devices/changebauddialog.cpp devices/changebauddialog.h
+    devices/changeiddialog.cpp devices/changeiddialog.h
+    devices/deviceactions.cpp devices/deviceactions.h
+    devices/devicedelegate.cpp devices/devicedelegate.h
+    devices/devicedialog.cpp devices/devicedialog.h
+    devices/devicepanel.cpp devices/devicepanel.h
+    devices/devicetreemodel.cpp devices/devicetreemodel.h
+    devices/devicetreetexts.cpp
+    devices/factoryresetdialog.cpp devices/factoryresetdialog.h
 )

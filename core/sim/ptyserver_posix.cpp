@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/sim/ptyserver.h"
+
+#include "core/sim/packetassembler.h"
+#include "core/sim/pseudoterminal.h"
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <deque>
+#include <future>
+#include <mutex>
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <thread>
+#include <unistd.h>
+
+namespace dynascope::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr LineTime TickPeriod = 10ms;
+constexpr LineTime IdlePeriod = 500ms;  ///< motion is brought up to date, so that no long stretch piles up
+constexpr LineTime LongestPiece = 1ms;  ///< of a reply, as an adapter hands bytes on
+constexpr LineTime SpinTime = 150us;    ///< sleeping is no more exact than that
+
+LineTime wallTime()
+{
+    return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+using Change = std::function<void(SimulatedBus &, LineTime)>;
+
+} // namespace
+
+class PtyServer::Worker
+{
+public:
+    Worker(std::unique_ptr<SimulatedBus> bus, std::unique_ptr<PseudoTerminal> terminal, Change onTick, int wake)
+        : m_bus(std::move(bus))
+        , m_terminal(std::move(terminal))
+        , m_onTick(std::move(onTick))
+        , m_path(m_terminal->path())
+        , m_wake(wake)
+        , m_thread([this] { run(); })
+    {
+        pthread_setname_np(m_thread.native_handle(), "simulated bus");
+    }
+
+    ~Worker()
+    {
+        m_stop.store(true, std::memory_order_release);
+        wake();
+        m_thread.join();
+        ::close(m_wake);
+    }
+
+    const QString &path() const { return m_path; }
+
+    void post(Change change)
+    {
+        {
+            const std::lock_guard lock(m_queueMutex);
+            m_queue.push_back(std::move(change));
+        }
+        wake();
+    }
+
+private:
+    void wake()
+    {
+        const std::uint64_t one = 1;
+        while (::write(m_wake, &one, sizeof one) < 0 && errno == EINTR) { }
+    }
+
+    void run();
+    void runPosted();
+    void hearClient(LineTime now);
+    void answerClient(LineTime now);
+    void tick(LineTime now);
+    void wait();
+    LineTime coarseWake() const;
+
+    std::unique_ptr<SimulatedBus> m_bus;
+    std::unique_ptr<PseudoTerminal> m_terminal;
+    PacketAssembler m_assembler;
+    Change m_onTick;
+    LineTime m_nextTick{};
+    const QString m_path;
+    const int m_wake; ///< an eventfd
+    std::atomic<bool> m_stop = false;
+    std::mutex m_queueMutex;
+    std::deque<Change> m_queue;
+    std::thread m_thread; ///< last: starts when all else stands
+};
+
+void PtyServer::Worker::run()
+{
+    m_bus->beginAt(wallTime());
+    m_nextTick = wallTime();
+    while (!m_stop.load(std::memory_order_acquire)) {
+        if (m_terminal->watchDescriptor() >= 0 && m_terminal->noticeClients()) {
+            hearClient(wallTime()); // its last words count
+            m_bus->discardArrived(wallTime());
+        }
+        hearClient(wallTime());
+        answerClient(wallTime());
+        runPosted();
+        tick(wallTime());
+        wait();
+    }
+}
+
+void PtyServer::Worker::runPosted()
+{
+    std::deque<Change> changes;
+    {
+        const std::lock_guard lock(m_queueMutex);
+        changes.swap(m_queue);
+    }
+    for (const Change &change : changes) {
+        const LineTime now = wallTime();
+        m_bus->advanceTo(now);
+        change(*m_bus, now);
+    }
+}
+
+void PtyServer::Worker::hearClient(LineTime now)
+{
+    const Bytes bytes = m_terminal->read();
+    if (!bytes.empty())
+        m_assembler.feed(bytes, now);
+    while (const auto packet = m_assembler.next(now))
+        m_bus->send(*packet, now, m_terminal->baudRate());
+}
+
+void PtyServer::Worker::answerClient(LineTime now)
+{
+    Bytes reply;
+    m_bus->receive(reply, now, m_terminal->baudRate());
+    if (!reply.empty() && m_terminal->hasClient())
+        m_terminal->write(reply);
+}
+
+void PtyServer::Worker::tick(LineTime now)
+{
+    if (now < m_nextTick)
+        return;
+    m_bus->advanceTo(now);
+    if (m_onTick)
+        m_onTick(*m_bus, now);
+    m_nextTick = now + (m_onTick ? TickPeriod : IdlePeriod);
+}
+
+/// When to look again, to a scheduler's exactness: nothing is said at that moment.
+LineTime PtyServer::Worker::coarseWake() const
+{
+    LineTime wake = m_nextTick;
+    if (const auto next = m_bus->nextArrival())
+        wake = std::min(wake, *next);
+    if (const auto deadline = m_assembler.deadline())
+        wake = std::min(wake, *deadline);
+    return wake;
+}
+
+void PtyServer::Worker::wait()
+{
+    const LineTime now = wallTime();
+    const auto quiet = m_bus->quietAt();
+    const LineTime exact = quiet ? std::min(*quiet, now + LongestPiece) : LineTime{};
+    const LineTime sleep = (quiet ? exact - SpinTime : coarseWake()) - now;
+    if (sleep > 0ns) {
+        const timespec length{static_cast<time_t>(sleep / 1s), static_cast<long>((sleep % 1s).count())};
+        std::array<pollfd, 3> waited{pollfd{m_terminal->descriptor(), POLLIN, 0}, pollfd{m_wake, POLLIN, 0},
+                                     pollfd{m_terminal->watchDescriptor(), POLLIN, 0}};
+        if (ppoll(waited.data(), waited.size(), &length, nullptr) > 0) {
+            std::uint64_t count = 0;
+            if ((waited[1].revents & POLLIN) && ::read(m_wake, &count, sizeof count) < 0 && errno != EINTR)
+                return;
+            return;
+        }
+    }
+    while (quiet && wallTime() < exact) { }
+}
+
+PtyServer::PtyServer() = default;
+PtyServer::~PtyServer() = default;
+
+Result<std::unique_ptr<PtyServer>> PtyServer::start(std::unique_ptr<SimulatedBus> bus, const QString &link,
+                                                    std::function<void(SimulatedBus &, LineTime)> onTick)
+{
+    auto terminal = PseudoTerminal::open(link);
+    if (!terminal)
+        return tl::unexpected(terminal.error());
+    const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (wake < 0)
+        return failure(ErrorKind::PortUnsuitable, QStringLiteral("The simulator could not be started: too many open files"));
+    std::unique_ptr<PtyServer> server(new PtyServer);
+    server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), std::move(onTick), wake);
+    return server;
+}
+
+QString PtyServer::path() const
+{
+    return m_worker->path();
+}
+
+void PtyServer::post(std::function<void(SimulatedBus &, LineTime)> change)
+{
+    m_worker->post(std::move(change));
+}
+
+void PtyServer::call(std::function<void(SimulatedBus &, LineTime)> change)
+{
+    std::promise<void> done;
+    m_worker->post([&](SimulatedBus &bus, LineTime now) {
+        change(bus, now);
+        done.set_value();
+    });
+    done.get_future().wait();
+}
+
+} // namespace dynascope::sim

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/sim/simulatedbus.h"
+
+#include "core/sim/baudmismatch.h"
+#include "core/sim/groupreply.h"
+#include "core/sim/motor.h"
+#include "core/sim/wire.h"
+
+#include <algorithm>
+
+namespace dynascope::sim {
+
+/// A reply that waits for its time.
+struct SimulatedBus::Scheduled {
+    LineTime at{};
+    const Servo *servo = nullptr;
+    int baudRate = 57600;
+    Bytes bytes;
+    bool givesUp = false; ///< dropped when its sender hears another instruction first
+    std::shared_ptr<Chain> chain;
+    std::size_t index = 0;
+};
+
+namespace {
+
+constexpr std::uint64_t SeedStep = 0x9E3779B97F4A7C15ULL; ///< spreads one seed over the servos
+
+LineTime duration(const Reaction &reaction)
+{
+    Transmission reply;
+    reply.baudRate = reaction.baudRate;
+    reply.bytes = encode(reaction.status);
+    return reply.end();
+}
+
+} // namespace
+
+SimulatedBus::SimulatedBus(const Catalog &catalog, std::uint64_t seed)
+    : m_catalog(catalog)
+    , m_seed(seed)
+    , m_wire(std::make_unique<Wire>(seed))
+{
+}
+
+SimulatedBus::~SimulatedBus() = default;
+
+void SimulatedBus::beginAt(LineTime now)
+{
+    m_now = m_controllerFree = now;
+    for (const auto &servo : m_servos)
+        servo->beginAt(now);
+}
+
+Result<Servo *> SimulatedBus::add(const ServoSpec &spec)
+{
+    const Catalog::ModelInfo *info = m_catalog.model(QStringView(spec.model));
+    if (!info)
+        return failure(ErrorKind::NotFound, QStringLiteral("%1 is not a model the simulator knows").arg(spec.model));
+    const int firmware = spec.firmware < 0 ? info->newestFirmware : spec.firmware;
+    ControlTablePtr table = m_catalog.find(info->modelNumber, firmware);
+    const MotorModel *motor = findMotor(info->model);
+    if (!table || !motor)
+        return failure(ErrorKind::NotSupported, QStringLiteral("The simulator can't play %1").arg(info->model));
+    if (!table->baudCode(spec.baudRate))
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("%1 has no rate of %2 bps").arg(info->model).arg(spec.baudRate));
+    m_seed += SeedStep;
+    m_servos.push_back(std::make_unique<Servo>(std::move(table), *motor,
+                                               Servo::Identity{firmware, spec.id, spec.baudRate}, m_seed));
+    m_servos.back()->beginAt(m_now);
+    return m_servos.back().get();
+}
+
+Servo *SimulatedBus::servo(int id, int baudRate) const
+{
+    for (const auto &servo : m_servos) {
+        if (servo->id() == id && servo->baudRate() == baudRate)
+            return servo.get();
+    }
+    return nullptr;
+}
+
+void SimulatedBus::setLogging(bool on)
+{
+    m_logging = on;
+}
+
+void SimulatedBus::send(ByteView bytes, LineTime begin, int baudRate)
+{
+    runTo(begin);
+    Transmission sent;
+    sent.begin = std::max(begin, m_controllerFree); // a port sends one packet after the other
+    sent.baudRate = baudRate;
+    sent.bytes.assign(bytes.begin(), bytes.end());
+    m_controllerFree = sent.end();
+    m_wire->begin(std::move(sent));
+}
+
+void SimulatedBus::receive(Bytes &to, LineTime now, int baudRate)
+{
+    runTo(now);
+    m_wire->hear(to, now, baudRate);
+}
+
+void SimulatedBus::discardArrived(LineTime now)
+{
+    runTo(now);
+    m_wire->discard(now);
+}
+
+void SimulatedBus::advanceTo(LineTime now)
+{
+    runTo(now);
+    for (const auto &servo : m_servos)
+        servo->advanceTo(now);
+}
+
+std::optional<LineTime> SimulatedBus::nextArrival() const
+{
+    std::optional<LineTime> next = m_wire->nextByte();
+    const auto consider = [&next](LineTime at) { next = next ? std::min(*next, at) : at; };
+    if (const auto end = m_wire->nextEnd())
+        consider(*end);
+    for (const Scheduled &reply : m_scheduled)
+        consider(reply.at);
+    return next;
+}
+
+std::optional<LineTime> SimulatedBus::quietAt() const
+{
+    return m_wire->quiet();
+}
+
+void SimulatedBus::runTo(LineTime now)
+{
+    for (;;) {
+        const auto end = m_wire->nextEnd();
+        const auto reply = std::ranges::min_element(m_scheduled, {}, &Scheduled::at);
+        const bool haveReply = reply != m_scheduled.end();
+        const bool endFirst = end && (!haveReply || *end <= reply->at);
+        if (endFirst && *end <= now) {
+            const Transmission sent = m_wire->takeEnded();
+            if (m_logging)
+                m_log.push_back({sent.begin, sent.end(), sent.baudRate, sent.sender == nullptr, sent.bytes});
+            sent.sender ? hearServo(sent) : hearController(sent);
+        } else if (!endFirst && haveReply && reply->at <= now) {
+            Scheduled due = std::move(*reply);
+            m_scheduled.erase(reply);
+            begin(due);
+        } else {
+            break;
+        }
+    }
+    m_now = std::max(m_now, now);
+}
+
+void SimulatedBus::hearController(const Transmission &sent)
+{
+    std::vector<std::pair<Servo *, Reaction>> all;
+    for (const auto &servo : m_servos) {
+        const bool same = understandEachOther(sent.baudRate, servo->baudRate());
+        const Bytes heard = same ? sent.bytes : heardAtOtherBaud(sent.bytes, sent.baudRate, servo->baudRate());
+        const LineTime byteTime = heard.empty() ? LineTime{} : (sent.end() - sent.begin) / static_cast<int>(heard.size());
+        std::vector<Reaction> reactions;
+        if (servo->hear(heard, sent.begin, byteTime, reactions))
+            interrupt(servo.get());
+        for (Reaction &reaction : reactions)
+            all.emplace_back(servo.get(), std::move(reaction));
+    }
+    plan(std::move(all));
+}
+
+/// Who waits for its turn and hears another instruction waits no longer.
+void SimulatedBus::interrupt(const Servo *servo)
+{
+    std::erase_if(m_scheduled, [servo](const Scheduled &reply) { return reply.givesUp && reply.servo == servo; });
+    for (const auto &chain : m_chains)
+        std::erase_if(chain->waiting, [servo](const Chain::Member &member) { return member.servo == servo; });
+    std::erase_if(m_chains, [](const auto &chain) { return chain->waiting.empty(); });
+}
+
+void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
+{
+    std::vector<std::pair<Servo *, Reaction>> pings;
+    for (auto &[servo, reaction] : reactions) {
+        switch (reaction.turn) {
+        case Reaction::Turn::Direct: {
+            Scheduled reply;
+            reply.at = reaction.heardAt + reaction.delay;
+            reply.servo = servo;
+            reply.baudRate = reaction.baudRate;
+            reply.bytes = encode(reaction.status);
+            schedule(std::move(reply));
+            break;
+        }
+        case Reaction::Turn::Slot: pings.emplace_back(servo, std::move(reaction)); break;
+        case Reaction::Turn::Chain: joinChain(servo, std::move(reaction)); break;
+        }
+    }
+    planPings(std::move(pings));
+    const auto chains = m_chains; // the member changes while they go on
+    for (const auto &chain : chains)
+        continueChain(chain, 0, chain->heardAt);
+}
+
+void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
+{
+    if (pings.empty())
+        return;
+    std::ranges::stable_sort(pings, {}, [](const auto &ping) { return ping.second.status.id; });
+    std::vector<PingSlot> turns;
+    for (const auto &ping : pings)
+        turns.push_back({ping.second.status.id, ping.second.delay, duration(ping.second)});
+    const std::vector<LineTime> times = pingTimes(pings.front().second.heardAt, turns);
+    for (std::size_t i = 0; i < pings.size(); ++i) {
+        Scheduled reply;
+        reply.at = times[i];
+        reply.servo = pings[i].first;
+        reply.baudRate = pings[i].second.baudRate;
+        reply.bytes = encode(pings[i].second.status);
+        reply.givesUp = true;
+        schedule(std::move(reply));
+    }
+}
+
+void SimulatedBus::joinChain(Servo *servo, Reaction reaction)
+{
+    const auto same = std::ranges::find_if(m_chains, [&](const auto &chain) {
+        return chain->heardAt == reaction.heardAt && chain->group.spans == reaction.group.spans;
+    });
+    std::shared_ptr<Chain> chain = same != m_chains.end() ? *same : nullptr;
+    if (!chain) {
+        chain = std::make_shared<Chain>();
+        chain->heardAt = reaction.heardAt;
+        chain->group = std::move(reaction.group);
+        m_chains.push_back(chain);
+    }
+    chain->waiting.push_back({servo, reaction.index, reaction.delay, reaction.baudRate, std::move(reaction.status)});
+}
+
+void SimulatedBus::continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from)
+{
+    for (const Chain::Member &member : chain->waiting) {
+        if (member.index != index)
+            continue;
+        Scheduled reply;
+        reply.at = from + member.delay;
+        reply.servo = member.servo;
+        reply.baudRate = member.baudRate;
+        reply.bytes = chainBytes(*chain, member);
+        reply.givesUp = true;
+        reply.chain = chain;
+        reply.index = index;
+        schedule(std::move(reply));
+    }
+    std::erase_if(chain->waiting, [index](const Chain::Member &member) { return member.index == index; });
+    std::erase_if(m_chains, [](const auto &one) { return one->waiting.empty(); });
+}
+
+void SimulatedBus::hearServo(const Transmission &sent)
+{
+    if (sent.chain && !sent.damaged)
+        continueChain(sent.chain, sent.index + 1, sent.end());
+}
+
+void SimulatedBus::schedule(Scheduled reply)
+{
+    if (m_faults.delay > 0) {
+        --m_faults.delay;
+        reply.at += m_faults.lateness;
+    }
+    m_scheduled.push_back(std::move(reply));
+}
+
+void SimulatedBus::begin(Scheduled &reply)
+{
+    if (m_faults.drop > 0) {
+        --m_faults.drop;
+        return;
+    }
+    Transmission sent;
+    sent.begin = reply.at;
+    sent.baudRate = reply.baudRate;
+    sent.sender = reply.servo;
+    sent.bytes = std::move(reply.bytes);
+    sent.chain = std::move(reply.chain);
+    sent.index = reply.index;
+    if (m_faults.corrupt > 0) {
+        --m_faults.corrupt;
+        sent.bytes[sent.bytes.size() - 3] ^= 0x10U; // the last byte before the CRC
+        sent.damaged = true;
+    }
+    m_wire->begin(std::move(sent));
+}
+
+} // namespace dynascope::sim

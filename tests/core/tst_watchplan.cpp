@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/watchplan.h"
+#include "core/table/catalog.h"
+#include "tests/support/testmain.h"
+
+using namespace dynascope;
+
+namespace {
+
+QStringList asText(const PollPlan &plan)
+{
+    QStringList lines;
+    for (const PollSpan &span : plan.spans) {
+        lines << QStringLiteral("#%1 %2+%3 every %4 ms")
+                     .arg(span.span.id)
+                     .arg(span.span.address)
+                     .arg(span.span.length)
+                     .arg(span.interval.count());
+    }
+    return lines;
+}
+
+} // namespace
+
+class TestWatchPlan : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase()
+    {
+        auto catalog = Catalog::builtIn();
+        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
+        m_table = catalog->find(1020, 45);
+        QVERIFY(m_table);
+    }
+
+    void everyDeviceIsLookedAtOnceASecond()
+    {
+        const Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        QCOMPARE(asText(planWatches({{&device, {}, false}})),
+                 QStringList({QStringLiteral("#1 64+7 every 1000 ms"), QStringLiteral("#1 144+3 every 1000 ms")}));
+    }
+
+    void neighboursAreReadTogether()
+    {
+        const Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        const int position = m_table->indexOf(u"Present Position");
+        const int velocity = m_table->indexOf(u"Present Velocity");
+        const int temperature = m_table->indexOf(u"Present Temperature");
+        const QStringList plan = asText(planWatches({{&device, {position, velocity, temperature}, false}}));
+        // 128..135 and 146: ten bytes between them are dearer than a second span.
+        QCOMPARE(plan.mid(0, 2),
+                 QStringList({QStringLiteral("#1 128+8 every 0 ms"), QStringLiteral("#1 146+1 every 0 ms")}));
+    }
+
+    void theSelectedDeviceShowsItsRam()
+    {
+        const Device device(2, nullptr, m_table, {2, 57600, 1020, 45, false, {}});
+        const QStringList plan = asText(planWatches({{&device, {}, true}}));
+        QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms")}));
+    }
+
+    void aParkedDeviceIsLeftAlone()
+    {
+        Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        device.setState(Device::State::Parked);
+        QVERIFY(planWatches({{&device, {0}, true}}).spans.empty());
+        device.setState(Device::State::Silent); // the poller probes it now and then
+        QVERIFY(!planWatches({{&device, {0}, true}}).spans.empty());
+    }
+
+private:
+    ControlTablePtr m_table;
+};
+
+DYNASCOPE_CORE_TEST(TestWatchPlan)
+#include "tst_watchplan.moc"

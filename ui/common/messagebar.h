@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QFrame>
+#include <QTimer>
+
+#include <functional>
+#include <optional>
+
+class QLabel;
+class QPushButton;
+class QToolButton;
+
+namespace dynascope {
+
+enum class MessageKind { Info, Success, Warning, Error }; ///< in the order of how much they matter
+
+struct Message {
+    MessageKind kind = MessageKind::Info;
+    QString text;
+    QString actionText;           ///< empty: no button
+    std::function<void()> action; ///< called on the GUI thread; the bar closes then
+};
+
+/// One line above the work area: icon, text, perhaps one button. Shows the message that matters most; one of lower rank
+/// waits behind it, and only the newest of those. The same text again counts up. Success and info go by themselves.
+class MessageBar : public QFrame
+{
+    Q_OBJECT
+
+public:
+    explicit MessageBar(QWidget *parent = nullptr);
+
+    void post(Message message);
+    void post(MessageKind kind, const QString &text) { post(Message{kind, text, {}, {}}); }
+    void dismiss(); ///< shows what waits, else hides
+    void clear();   ///< also what waits
+    /// Off for a bar whose owner alone decides when it goes.
+    void setDismissable(bool dismissable);
+
+    QString text() const { return m_current ? m_current->text : QString(); }
+    std::optional<MessageKind> kind() const;
+    int count() const { return m_count; } ///< how often the present message came
+
+protected:
+    void paintEvent(QPaintEvent *event) override;
+    void changeEvent(QEvent *event) override;
+
+private:
+    void show(Message message);
+    void updateText();
+
+    QLabel *m_icon;
+    QLabel *m_label;
+    QPushButton *m_action;
+    QToolButton *m_close;
+    QTimer m_hideTimer;
+    std::optional<Message> m_current;
+    std::optional<Message> m_waiting;
+    int m_count = 0;
+    bool m_dismissable = true;
+};
+
+} // namespace dynascope

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/common/texts.h"
+
+#include "core/table/units.h"
+
+#include <QCoreApplication>
+
+#include <chrono>
+
+namespace dynascope {
+
+namespace {
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("Texts", text);
+}
+
+/// Thousands set apart by a thin space, which doesn't depend on the locale.
+QString grouped(int number)
+{
+    QString text = QString::number(number);
+    for (qsizetype at = text.size() - 3; at > 0; at -= 3)
+        text.insert(at, QChar(0x2009));
+    return text;
+}
+
+} // namespace
+
+QString baudText(int bitsPerSecond)
+{
+    if (bitsPerSecond >= 1'000'000 && bitsPerSecond % 100'000 == 0)
+        return tr("%1 Mbps").arg(bitsPerSecond / 1e6, 0, 'g', 4);
+    return tr("%1 bps").arg(grouped(bitsPerSecond));
+}
+
+QString agoText(LineTime at)
+{
+    const LineTime now = std::chrono::steady_clock::now().time_since_epoch();
+    const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now - at).count();
+    if (seconds < 10)
+        return tr("just now");
+    if (seconds < 60)
+        return tr("%1 s ago").arg(seconds / 10 * 10);
+    if (seconds < 3600)
+        return tr("%1 min ago").arg(seconds / 60);
+    return tr("%1 h ago").arg(seconds / 3600);
+}
+
+QString portText(const QString &name)
+{
+    return name == QStringLiteral("sim") ? tr("Simulated bus") : name;
+}
+
+QString lineStateText(const LineSession &line)
+{
+    const QString name = portText(line.name());
+    switch (line.state()) {
+    case BusThread::State::Opening: return tr("Opening %1…").arg(name);
+    case BusThread::State::Open: return tr("Connected at %1").arg(baudText(line.baudRate()));
+    case BusThread::State::Lost: return tr("%1 is gone").arg(name);
+    case BusThread::State::Closed: break;
+    }
+    return tr("Not connected");
+}
+
+QString deviceStateText(const Device &device)
+{
+    const LineSession *line = device.line();
+    if (line && line->state() != BusThread::State::Open)
+        return tr("No connection");
+    switch (device.state()) {
+    case Device::State::Present: break;
+    case Device::State::Parked:
+        return tr("Parked at %1, last heard %2").arg(baudText(device.baudRate()), agoText(device.lastHeard()));
+    case Device::State::Silent: return tr("Does not answer, last heard %1").arg(agoText(device.lastHeard()));
+    case Device::State::Rebooting: return tr("Rebooting…");
+    }
+    if (!device.doubt().isEmpty())
+        return device.doubt();
+    if (!device.isKnownModel())
+        return tr("Model %1 is unknown").arg(device.modelNumber());
+    const auto torque = device.raw(u"Torque Enable");
+    if (!torque)
+        return tr("Present");
+    return *torque != 0 ? tr("Torque on") : tr("Torque off");
+}
+
+QString alertText(const Device &device)
+{
+    if (!device.alert())
+        return {};
+    if (const Field *field = device.table().find(u"Hardware Error Status")) {
+        const auto raw = device.raw(field->name);
+        if (raw && *raw != 0)
+            return meaning(*field, *raw);
+    }
+    return tr("Hardware error");
+}
+
+} // namespace dynascope

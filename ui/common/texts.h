@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/linesession.h"
+
+namespace dynascope {
+
+QString baudText(int bitsPerSecond);    ///< "57 600 bps", "1 Mbps"
+QString agoText(LineTime at);           ///< "just now", "3 min ago"; since the monotonic clock's `at`
+QString portText(const QString &name);  ///< "Simulated bus" for "sim", else the name
+
+/// What a line does, in words: "Connected to /dev/ttyUSB0 at 1 Mbps".
+QString lineStateText(const LineSession &line);
+/// What a device does, in words: "Torque on", "Parked at 57 600 bps, last heard 3 min ago".
+QString deviceStateText(const Device &device);
+/// Names of the latched hardware errors; empty without an alert.
+QString alertText(const Device &device);
+
+} // namespace dynascope

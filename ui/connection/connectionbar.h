@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "ui/common/workbench.h"
+
+#include <QToolBar>
+
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QStackedWidget;
+class QToolButton;
+
+namespace dynascope {
+
+class BaudCombo;
+class Connector;
+class ElidedLabel;
+class LineSession;
+class PortCombo;
+class ScanOptions;
+
+/// Port, baud, connect, scan, the state in words; at the right STOP, always.
+class ConnectionBar : public QToolBar
+{
+    Q_OBJECT
+
+public:
+    ConnectionBar(const Workbench &workbench, Connector &connector, QWidget *parent = nullptr);
+
+    /// The line of the port that is chosen; nullptr where it isn't open.
+    LineSession *currentLine() const;
+    void setPort(const QString &port, int baudRate);
+    void choosePort(); ///< opens the list
+
+public slots:
+    void toggleConnection();
+    void startScan();
+    void showScanOptions();
+
+signals:
+    void currentLineChanged();
+
+private:
+    void makeButtons();
+    void addAll();
+    void update();
+    void updateScan();
+    void onBaudChosen(int bitsPerSecond);
+
+    Workbench m_workbench;
+    Connector &m_connector;
+    PortCombo *m_port;
+    BaudCombo *m_baud;
+    QPushButton *m_connect;
+    QToolButton *m_scan;
+    QToolButton *m_scanMore;
+    QStackedWidget *m_status;
+    ElidedLabel *m_state;
+    QLabel *m_stateIcon;
+    QProgressBar *m_progress;
+    QLabel *m_progressText;
+    QToolButton *m_cancel;
+    ScanOptions *m_options;
+    LineSession *m_shown = nullptr; ///< whose baud rate the combo shows; compared only
+    int m_shownBaud = 0;
+};
+
+} // namespace dynascope

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/connection/connector.h"
+
+#include "core/session/scanner.h"
+#include "ui/common/texts.h"
+
+#include <QFileInfo>
+#include <QSettings>
+
+#include <algorithm>
+#include <chrono>
+
+namespace dynascope {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto RetryInterval = 1s;
+constexpr int MostRecent = 6;
+
+const QString PortKey = QStringLiteral("connection/port");
+const QString BaudKey = QStringLiteral("connection/baud");
+const QString RecentKey = QStringLiteral("connection/recent");
+
+} // namespace
+
+Connector::Connector(const Workbench &workbench, QObject *parent)
+    : QObject(parent)
+    , m_workbench(workbench)
+{
+    m_retryTimer.setInterval(RetryInterval);
+    connect(&m_retryTimer, &QTimer::timeout, this, &Connector::tryAgain);
+    connect(&workbench.session, &Session::lineAdded, this, &Connector::follow);
+    connect(&workbench.session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
+        m_opened.remove(line);
+        m_lost.remove(line);
+        QMetaObject::invokeMethod(this, &Connector::changed, Qt::QueuedConnection);
+    });
+    connect(&workbench.scanner, &Scanner::finished, this, &Connector::onScanned);
+    for (const auto &line : workbench.session.lines())
+        follow(line.get());
+}
+
+LineSession *Connector::line(const QString &port) const
+{
+    const auto &lines = m_workbench.session.lines();
+    const auto at = std::ranges::find_if(lines, [&port](const auto &line) { return line->name() == port; });
+    return at == lines.end() ? nullptr : at->get();
+}
+
+void Connector::connectTo(const QString &port, int baudRate)
+{
+    if (port.isEmpty()) {
+        emit posted({MessageKind::Warning, tr("Choose a port first"), {}, {}});
+        return;
+    }
+    LineSession *present = line(port);
+    if (present && present->state() != BusThread::State::Closed && present->state() != BusThread::State::Lost)
+        return;
+    if (present && !present->devices().empty()) {
+        reconnect(*present);
+        return;
+    }
+    m_workbench.session.open(port, baudRate);
+}
+
+void Connector::disconnectFrom(LineSession &line)
+{
+    if (m_scanned == &line)
+        m_workbench.scanner.cancel();
+    m_workbench.session.close(line);
+    emit changed();
+}
+
+void Connector::reconnect(LineSession &line)
+{
+    line.reopen();
+}
+
+void Connector::scan(LineSession &line, const ScanRange &range)
+{
+    if (line.state() != BusThread::State::Open || range.bauds.empty())
+        return;
+    m_scanned = &line;
+    m_workbench.scanner.start(line, range);
+}
+
+void Connector::cancelScan()
+{
+    m_workbench.scanner.cancel();
+}
+
+void Connector::follow(LineSession *line)
+{
+    connect(line, &LineSession::stateChanged, this, [this, line] { onState(line); });
+    emit changed();
+}
+
+void Connector::onState(LineSession *line)
+{
+    switch (line->state()) {
+    case BusThread::State::Opening: break;
+    case BusThread::State::Open: onOpen(line); break;
+    case BusThread::State::Lost: onLost(line); break;
+    case BusThread::State::Closed: onRefused(line); break;
+    }
+    emit changed();
+}
+
+void Connector::onOpen(LineSession *line)
+{
+    if (m_lost.remove(line))
+        emit posted({MessageKind::Success, tr("%1 is back").arg(portText(line->name())), {}, {}});
+    if (m_opened.contains(line))
+        return;
+    m_opened.insert(line);
+    remember(line->name(), line->baudRate());
+    if (line->devices().empty())
+        scan(*line, {likelyBauds(line->baudRate()), 0, 252});
+}
+
+void Connector::onLost(LineSession *line)
+{
+    if (m_lost.contains(line))
+        return;
+    m_lost.insert(line);
+    m_retryTimer.start();
+    const QString why = line->bus().error().text;
+    const QString text = tr("%1 is gone%2. It is opened again when it comes back.")
+                             .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
+    emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
+                     if (where)
+                         reconnect(*where);
+                 }});
+}
+
+void Connector::onRefused(LineSession *line)
+{
+    const Error error = line->bus().error();
+    if (m_lost.contains(line))
+        return; // not back yet; said already
+    if (!m_opened.contains(line)) {
+        // Nothing to keep of a line that never was: say why and leave the window as it was. Not from inside its signal.
+        QMetaObject::invokeMethod(
+            this,
+            [this, where = QPointer<LineSession>(line)] {
+                if (where && where->state() == BusThread::State::Closed)
+                    m_workbench.session.close(*where);
+            },
+            Qt::QueuedConnection);
+    }
+    if (error.text.isEmpty())
+        return;
+    const QString port = line->name();
+    const int baud = line->baudRate();
+    emit posted({MessageKind::Error, error.text, tr("Try again"), [this, port, baud] { connectTo(port, baud); }});
+}
+
+void Connector::onScanned(int found, const QString &trouble)
+{
+    const QPointer<LineSession> scanned = m_scanned;
+    m_scanned.clear();
+    emit changed();
+    if (!scanned || scanned->state() != BusThread::State::Open)
+        return;
+    if (!trouble.isEmpty()) {
+        emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}});
+    } else if (found == 0) {
+        emit posted({MessageKind::Warning,
+                     tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(portText(scanned->name())),
+                     {},
+                     {}});
+    } else {
+        emit posted({MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {}});
+    }
+}
+
+bool Connector::isThere(const QString &port) const
+{
+    const auto ports = m_workbench.ports.ports();
+    return std::ranges::any_of(ports, [&port](const PortInfo &info) { return info.name == port; })
+        || QFileInfo::exists(port);
+}
+
+void Connector::tryAgain()
+{
+    if (m_lost.isEmpty()) {
+        m_retryTimer.stop();
+        return;
+    }
+    const QSet<LineSession *> waiting = m_lost;
+    for (LineSession *line : waiting) {
+        const bool idle = line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed;
+        if (idle && isThere(line->name()))
+            line->reopen();
+    }
+}
+
+QString Connector::lastPort()
+{
+    return QSettings().value(PortKey).toString();
+}
+
+int Connector::lastBaudRate()
+{
+    const int baud = QSettings().value(BaudKey).toInt();
+    return baud > 0 ? baud : 57600;
+}
+
+QStringList Connector::recentPorts()
+{
+    return QSettings().value(RecentKey).toStringList();
+}
+
+void Connector::remember(const QString &port, int baudRate)
+{
+    QSettings settings;
+    settings.setValue(PortKey, port);
+    settings.setValue(BaudKey, baudRate);
+    QStringList recent = settings.value(RecentKey).toStringList();
+    recent.removeAll(port);
+    recent.prepend(port);
+    settings.setValue(RecentKey, QStringList(recent.first(qMin(recent.size(), qsizetype(MostRecent)))));
+}
+
+} // namespace dynascope

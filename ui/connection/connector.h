@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/common/messagebar.h"
+#include "ui/common/workbench.h"
+
+#include <QSet>
+
+namespace dynascope {
+
+struct ScanRange;
+
+/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its port is back.
+class Connector : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Connector(const Workbench &workbench, QObject *parent = nullptr);
+
+    void connectTo(const QString &port, int baudRate); ///< an open line of that name is left as it is
+    void disconnectFrom(LineSession &line);
+    void reconnect(LineSession &line);
+    void scan(LineSession &line, const ScanRange &range);
+    void cancelScan();
+
+    LineSession *line(const QString &port) const; ///< nullptr where none of that name is open
+    LineSession *scannedLine() const { return m_scanned; }
+
+    /// @name What was opened last, for the next start
+    /// @{
+    static QString lastPort();
+    static int lastBaudRate();
+    static QStringList recentPorts(); ///< newest first
+    /// @}
+
+signals:
+    void changed(); ///< a line came, went, or is in another state
+    void posted(const dynascope::Message &message);
+
+private:
+    void follow(LineSession *line);
+    void onState(LineSession *line);
+    void onOpen(LineSession *line);
+    void onLost(LineSession *line);
+    void onRefused(LineSession *line);
+    void onScanned(int found, const QString &trouble);
+    void tryAgain();
+    bool isThere(const QString &port) const;
+    static void remember(const QString &port, int baudRate);
+
+    Workbench m_workbench;
+    QPointer<LineSession> m_scanned;
+    QSet<LineSession *> m_opened; ///< have been open at least once
+    QSet<LineSession *> m_lost;   ///< said to be gone, wait for their port
+    QTimer m_retryTimer;
+};
+
+} // namespace dynascope

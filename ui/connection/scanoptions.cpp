@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/connection/scanoptions.h"
+
+#include "ui/common/texts.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSpinBox>
+
+#include <algorithm>
+
+namespace dynascope {
+
+namespace {
+
+constexpr int BaudRole = Qt::UserRole;
+constexpr double SecondsPerId = 0.003; ///< a broadcast Ping waits this long per absent ID (protocol, section 4)
+
+QSpinBox *idSpin(const QString &name, int value, QWidget *parent)
+{
+    auto *spin = new QSpinBox(parent);
+    spin->setObjectName(name);
+    spin->setRange(0, 252);
+    spin->setValue(value);
+    return spin;
+}
+
+} // namespace
+
+ScanOptions::ScanOptions(QWidget *parent)
+    : QFrame(parent, Qt::Popup)
+    , m_bauds(new QListWidget(this))
+    , m_firstId(idSpin(QStringLiteral("scanFirstId"), 0, this))
+    , m_lastId(idSpin(QStringLiteral("scanLastId"), 252, this))
+    , m_summary(new QLabel(this))
+    , m_scan(new QPushButton(tr("Scan"), this))
+{
+    setObjectName(QStringLiteral("scanOptions"));
+    setFrameShape(QFrame::StyledPanel);
+    m_bauds->setObjectName(QStringLiteral("scanBauds"));
+    m_bauds->setAccessibleName(tr("Baud rates to scan"));
+    m_firstId->setAccessibleName(tr("First ID"));
+    m_lastId->setAccessibleName(tr("Last ID"));
+    m_scan->setObjectName(QStringLiteral("scanStart"));
+    m_scan->setDefault(true);
+    for (const int baud : allBauds()) {
+        auto *item = new QListWidgetItem(baudText(baud), m_bauds);
+        item->setData(BaudRole, baud);
+        item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable | Qt::ItemIsSelectable);
+    }
+    setBauds(likelyBauds(0));
+    m_bauds->setFixedHeight(m_bauds->sizeHintForRow(0) * m_bauds->count() + 8);
+    m_bauds->setMinimumWidth(200);
+
+    auto *likely = new QPushButton(tr("Likely"), this);
+    auto *all = new QPushButton(tr("All"), this);
+    auto *none = new QPushButton(tr("None"), this);
+    likely->setToolTip(tr("The rates a servo with a standard setting can have"));
+    connect(likely, &QPushButton::clicked, this, [this] { setBauds(likelyBauds(0)); });
+    connect(all, &QPushButton::clicked, this, [this] { setBauds(allBauds()); });
+    connect(none, &QPushButton::clicked, this, [this] { setBauds({}); });
+    auto *choices = new QHBoxLayout;
+    for (QPushButton *button : {likely, all, none})
+        choices->addWidget(button);
+
+    auto *ids = new QHBoxLayout;
+    ids->addWidget(new QLabel(tr("IDs"), this));
+    ids->addWidget(m_firstId);
+    ids->addWidget(new QLabel(tr("to"), this));
+    ids->addWidget(m_lastId);
+    ids->addStretch(1);
+
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(16, 16, 16, 16);
+    layout->setSpacing(8);
+    layout->addWidget(new QLabel(tr("Baud rates"), this));
+    layout->addWidget(m_bauds);
+    layout->addLayout(choices);
+    layout->addSpacing(8);
+    layout->addLayout(ids);
+    layout->addWidget(m_summary);
+    layout->addWidget(m_scan);
+
+    connect(m_bauds, &QListWidget::itemChanged, this, &ScanOptions::update);
+    connect(m_firstId, &QSpinBox::valueChanged, this, [this](int first) {
+        m_lastId->setMinimum(first);
+        update();
+    });
+    connect(m_lastId, &QSpinBox::valueChanged, this, &ScanOptions::update);
+    connect(m_scan, &QPushButton::clicked, this, [this] {
+        hide();
+        emit scanRequested();
+    });
+    update();
+}
+
+void ScanOptions::popup(const QPoint &position)
+{
+    adjustSize();
+    move(position);
+    show();
+    m_bauds->setFocus();
+}
+
+std::vector<int> ScanOptions::checkedBauds() const
+{
+    std::vector<int> bauds;
+    for (int row = 0; row < m_bauds->count(); ++row) {
+        if (m_bauds->item(row)->checkState() == Qt::Checked)
+            bauds.push_back(m_bauds->item(row)->data(BaudRole).toInt());
+    }
+    return bauds;
+}
+
+ScanRange ScanOptions::range(int lastUsedBaud) const
+{
+    const std::vector<int> order = likelyBauds(lastUsedBaud);
+    const auto rank = [&order](int baud) { return std::ranges::find(order, baud) - order.begin(); };
+    ScanRange range;
+    range.bauds = checkedBauds();
+    // A line may work at a rate that is in no list; it is the likeliest of all.
+    if (lastUsedBaud > 0 && std::ranges::find(allBauds(), lastUsedBaud) == allBauds().end())
+        range.bauds.push_back(lastUsedBaud);
+    std::ranges::stable_sort(range.bauds, {}, rank);
+    range.firstId = m_firstId->value();
+    range.lastId = m_lastId->value();
+    return range;
+}
+
+void ScanOptions::setBauds(const std::vector<int> &bauds)
+{
+    for (int row = 0; row < m_bauds->count(); ++row) {
+        QListWidgetItem *item = m_bauds->item(row);
+        const bool wanted = std::ranges::find(bauds, item->data(BaudRole).toInt()) != bauds.end();
+        item->setCheckState(wanted ? Qt::Checked : Qt::Unchecked);
+    }
+}
+
+void ScanOptions::update()
+{
+    const auto count = static_cast<int>(checkedBauds().size());
+    const double seconds = count * (m_lastId->value() + 1) * SecondsPerId;
+    m_summary->setText(count == 0 ? tr("Choose at least one baud rate")
+                                  : tr("Takes about %1 s").arg(qMax(1, qRound(seconds))));
+    m_scan->setEnabled(count > 0);
+}
+
+} // namespace dynascope

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/devices/changeiddialog.h"
+
+#include "core/session/commands.h"
+#include "ui/common/texts.h"
+
+#include <QFormLayout>
+#include <QLabel>
+#include <QSpinBox>
+
+namespace dynascope {
+
+namespace {
+
+QStringList takenIds(const Device &device)
+{
+    QStringList ids;
+    if (!device.line())
+        return ids;
+    for (const auto &other : device.line()->devices()) {
+        if (other.get() != &device && other->baudRate() == device.baudRate())
+            ids << QString::number(other->id());
+    }
+    return ids;
+}
+
+} // namespace
+
+QString takenBy(const Device &device, int id)
+{
+    if (!device.line())
+        return {};
+    for (const auto &other : device.line()->devices()) {
+        if (other.get() == &device || other->baudRate() != device.baudRate())
+            continue;
+        if (other->id() == id || other->raw(u"Secondary ID") == id)
+            return other->displayName();
+    }
+    return {};
+}
+
+ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *parent)
+    : DeviceDialog(device, tr("Change ID"), tr("Change ID"), parent)
+    , m_commands(commands)
+    , m_id(new QSpinBox(this))
+{
+    setObjectName(QStringLiteral("changeIdDialog"));
+    m_id->setObjectName(QStringLiteral("newId"));
+    m_id->setAccessibleName(tr("New ID"));
+    m_id->setRange(0, 252);
+    m_id->setValue(firstFree());
+    m_id->selectAll();
+    form()->addRow(tr("Present ID"), new QLabel(QString::number(device.id()), this));
+    form()->addRow(tr("New ID"), m_id);
+    const QStringList taken = takenIds(device);
+    auto *list = new QLabel(taken.isEmpty() ? tr("none") : taken.join(QStringLiteral(", ")), this);
+    list->setWordWrap(true);
+    form()->addRow(tr("Taken at %1").arg(baudText(device.baudRate())), list);
+    connect(m_id, &QSpinBox::valueChanged, this, [this] { check(); });
+    ChangeIdDialog::check();
+}
+
+int ChangeIdDialog::firstFree() const
+{
+    for (int id = 1; id <= 252; ++id) {
+        if (id != device()->id() && takenBy(*device(), id).isEmpty())
+            return id;
+    }
+    return device()->id();
+}
+
+void ChangeIdDialog::check()
+{
+    if (!device())
+        return;
+    const int id = m_id->value();
+    const QString other = takenBy(*device(), id);
+    if (id == device()->id())
+        setNote(MessageKind::Error, tr("That is its ID now."));
+    else if (!other.isEmpty())
+        setNote(MessageKind::Error, tr("ID %1 is taken by %2. Two devices with one ID can't be told apart.").arg(id).arg(other));
+    else if (!torqueAllows())
+        setNote(MessageKind::Error, tr("The servo keeps its ID locked while its torque is on."));
+    else
+        setNote(MessageKind::Info, tr("The ID is written, then the device is looked for at its new ID. Its traces and "
+                                      "nickname stay with it."));
+}
+
+void ChangeIdDialog::accept()
+{
+    if (device())
+        m_commands.changeId(*device(), m_id->value(), turnsTorqueOff());
+    DeviceDialog::accept();
+}
+
+} // namespace dynascope

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "ui/devices/devicedialog.h"
+
+class QSpinBox;
+
+namespace dynascope {
+
+class Commands;
+
+/// Another ID for one device. IDs that others at its baud rate answer to are refused before anything is written.
+class ChangeIdDialog : public DeviceDialog
+{
+    Q_OBJECT
+
+public:
+    ChangeIdDialog(Device &device, Commands &commands, QWidget *parent);
+
+    void accept() override;
+
+protected:
+    void check() override;
+
+private:
+    int firstFree() const;
+
+    Commands &m_commands;
+    QSpinBox *m_id;
+};
+
+/// Who answers to `id` at the device's baud rate, itself left out: a name, empty where nobody does.
+QString takenBy(const Device &device, int id);
+
+} // namespace dynascope

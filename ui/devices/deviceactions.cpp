@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/devices/deviceactions.h"
+
+#include "core/session/commands.h"
+#include "ui/common/icons.h"
+#include "ui/common/texts.h"
+#include "ui/devices/changebauddialog.h"
+#include "ui/devices/changeiddialog.h"
+#include "ui/devices/factoryresetdialog.h"
+
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QWidget>
+
+#include <algorithm>
+
+namespace dynascope {
+
+DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
+    : QObject(window)
+    , m_workbench(workbench)
+    , m_window(window)
+{
+    const auto key = [](const char *text) { return QString::fromLatin1(text); };
+    m_identify = add(key("identify"), key("led"), tr("Identify (LED)"), key("Ctrl+I"),
+                     tr("Switch the LED of the selected devices on or off"), &DeviceActions::identify);
+    m_torqueOn = add(key("torqueOn"), key("torque"), tr("Torque on"), key("Ctrl+T"),
+                     tr("The selected devices hold their position"), &DeviceActions::torqueOn);
+    m_torqueOff = add(key("torqueOff"), key("torque-off"), tr("Torque off"), key("Ctrl+Shift+T"),
+                      tr("The selected devices let go"), &DeviceActions::torqueOff);
+    m_readAll = add(key("readAll"), key("refresh"), tr("Read all"), key("F5"),
+                    tr("Read every register of the selected devices"), &DeviceActions::readAll);
+    m_reboot = add(key("reboot"), key("reboot"), tr("Reboot"), key("Ctrl+Shift+B"),
+                   tr("Restart: torque goes off, RAM goes back to defaults, a latched hardware error is cleared"),
+                   &DeviceActions::reboot);
+    m_rename = add(key("rename"), key("edit"), tr("Nickname…"), key("F2"), tr("A name of your own; the servo knows nothing of it"),
+                   &DeviceActions::rename);
+    m_changeId = add(key("changeId"), key("id"), tr("Change ID…"), key("Ctrl+Shift+I"), tr("Give this device another ID"),
+                     &DeviceActions::changeId);
+    m_changeBaud = add(key("changeBaud"), key("baud"), tr("Change baud rate…"), key("Ctrl+Shift+U"),
+                       tr("Let this device work at another baud rate"), &DeviceActions::changeBaud);
+    m_workAtBaud = add(key("workAtBaud"), key("parked"), tr("Work at this baud"), key("Ctrl+Shift+W"),
+                       tr("Move the line to this baud rate; devices at others are parked"), &DeviceActions::workAtBaud);
+    m_clearMultiTurn = add(key("clearMultiTurn"), key("turns"), tr("Clear multi-turn"), QString(),
+                           tr("Present Position goes back into one turn"), &DeviceActions::clearMultiTurn);
+    m_factoryReset = add(key("factoryReset"), key("factory-reset"), tr("Factory reset…"), QString(),
+                         tr("Put registers back to the factory's values"), &DeviceActions::factoryReset);
+    m_forget = add(key("forget"), key("trash"), tr("Remove from the list"), key("Del"),
+                   tr("Only here; the next scan finds it again if it answers"), &DeviceActions::forget);
+    m_identify->setIconText(tr("Identify"));
+    update();
+}
+
+QAction *DeviceActions::add(const QString &name, const QString &iconName, const QString &text, const QString &shortcut,
+                            const QString &tip, void (DeviceActions::*slot)())
+{
+    auto *action = new QAction(icon(iconName), text, this);
+    action->setObjectName(name + QStringLiteral("Action"));
+    action->setShortcut(QKeySequence(shortcut));
+    QString whole = tip;
+    if (!shortcut.isEmpty())
+        whole += QStringLiteral(" (%1)").arg(action->shortcut().toString(QKeySequence::NativeText));
+    action->setToolTip(whole);
+    action->setStatusTip(QString());
+    connect(action, &QAction::triggered, this, slot);
+    return action;
+}
+
+std::vector<QAction *> DeviceActions::menuActions() const
+{
+    return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,       nullptr, m_rename,
+            m_changeId, m_changeBaud, m_workAtBaud, nullptr, m_clearMultiTurn, m_factoryReset, m_forget};
+}
+
+void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate)
+{
+    m_selected.clear();
+    for (const Device *device : devices)
+        m_selected.push_back(device->key());
+    m_line = line;
+    m_baudRate = baudRate;
+    update();
+}
+
+std::vector<Device *> DeviceActions::devices() const
+{
+    std::vector<Device *> devices;
+    for (const DeviceKey key : m_selected) {
+        if (Device *device = m_workbench.session.device(key))
+            devices.push_back(device);
+    }
+    return devices;
+}
+
+std::vector<Device *> DeviceActions::reachable() const
+{
+    std::vector<Device *> devices = this->devices();
+    std::erase_if(devices, [](const Device *device) { return device->line()->state() != BusThread::State::Open; });
+    return devices;
+}
+
+Device *DeviceActions::single() const
+{
+    const std::vector<Device *> devices = reachable();
+    return devices.size() == 1 ? devices.front() : nullptr;
+}
+
+void DeviceActions::update()
+{
+    const std::vector<Device *> devices = reachable();
+    const bool any = !devices.empty();
+    const bool known = std::ranges::any_of(devices, &Device::isKnownModel);
+    const auto has = [&devices](const char *name) {
+        return std::ranges::any_of(
+            devices, [name](const Device *device) { return device->table().find(QString::fromLatin1(name)) != nullptr; });
+    };
+    Device *one = single();
+    m_identify->setEnabled(has("LED"));
+    m_torqueOn->setEnabled(has("Torque Enable") && !m_workbench.commands.isStopped());
+    m_torqueOff->setEnabled(has("Torque Enable"));
+    m_readAll->setEnabled(known);
+    m_reboot->setEnabled(any);
+    m_rename->setEnabled(this->devices().size() == 1);
+    m_changeId->setEnabled(one && one->table().find(u"ID"));
+    m_changeBaud->setEnabled(one && one->table().find(u"Baud Rate"));
+    m_workAtBaud->setEnabled(m_line && m_baudRate > 0 && m_line->state() == BusThread::State::Open
+                             && m_line->baudRate() != m_baudRate);
+    m_workAtBaud->setText(m_workAtBaud->isEnabled() ? tr("Work at %1").arg(baudText(m_baudRate)) : tr("Work at this baud"));
+    m_clearMultiTurn->setEnabled(any);
+    m_factoryReset->setEnabled(one && one->isKnownModel());
+    m_forget->setEnabled(!this->devices().empty());
+}
+
+void DeviceActions::open(QDialog *dialog)
+{
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->open();
+}
+
+void DeviceActions::confirm(const QString &title, const QString &text, const QString &yes, std::function<void()> action)
+{
+    auto *box = new QMessageBox(QMessageBox::Warning, title, text, QMessageBox::Cancel, m_window);
+    box->setObjectName(QStringLiteral("confirmBox"));
+    QPushButton *accept = box->addButton(yes, QMessageBox::AcceptRole);
+    accept->setObjectName(QStringLiteral("confirmButton"));
+    connect(accept, &QPushButton::clicked, this, std::move(action));
+    open(box);
+}
+
+void DeviceActions::identify()
+{
+    const std::vector<Device *> devices = reachable();
+    const bool allOn = std::ranges::all_of(devices, [](const Device *device) { return device->raw(u"LED").value_or(0) != 0; });
+    for (Device *device : devices)
+        m_workbench.commands.setLed(*device, !allOn);
+}
+
+void DeviceActions::torqueOn()
+{
+    const std::vector<Device *> devices = reachable();
+    if (devices.size() <= 1)
+        return turnTorqueOn(devices);
+    confirm(tr("Torque on"),
+            tr("Turn the torque of %1 devices on? Each holds its position, and may move to a goal it was given before.")
+                .arg(devices.size()),
+            tr("Torque on"), [this, keys = m_selected] {
+                std::vector<Device *> present;
+                for (const DeviceKey key : keys) {
+                    if (Device *device = m_workbench.session.device(key))
+                        present.push_back(device);
+                }
+                turnTorqueOn(present);
+            });
+}
+
+void DeviceActions::turnTorqueOn(const std::vector<Device *> &devices)
+{
+    std::vector<DeviceKey> keys;
+    for (const Device *device : devices)
+        keys.push_back(device->key());
+    m_workbench.commands.setTorque(devices, true, [this, here = QPointer<DeviceActions>(this), keys](const Result<void> &) {
+        if (here) // also where some failed: each is asked for its torque when it matters
+            emit torqueEnabled(keys);
+    });
+}
+
+void DeviceActions::torqueOff()
+{
+    m_workbench.commands.setTorque(reachable(), false);
+}
+
+void DeviceActions::readAll()
+{
+    for (Device *device : reachable())
+        m_workbench.commands.readAll(*device);
+}
+
+void DeviceActions::reboot()
+{
+    const std::vector<Device *> devices = reachable();
+    const auto run = [this, keys = m_selected] {
+        for (const DeviceKey key : keys) {
+            if (Device *device = m_workbench.session.device(key))
+                m_workbench.commands.reboot(*device);
+        }
+    };
+    const auto held = std::ranges::count_if(devices, &Device::isTorqueOn);
+    if (held == 0)
+        return run();
+    confirm(tr("Reboot"),
+            devices.size() == 1
+                ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.").arg(devices.front()->displayName())
+                : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.").arg(held),
+            tr("Reboot"), run);
+}
+
+void DeviceActions::rename()
+{
+    const std::vector<Device *> devices = this->devices();
+    if (devices.size() != 1)
+        return;
+    auto *dialog = new QInputDialog(m_window);
+    dialog->setObjectName(QStringLiteral("nicknameDialog"));
+    dialog->setWindowTitle(tr("Nickname"));
+    dialog->setLabelText(tr("Nickname of %1, ID %2:").arg(devices.front()->model()).arg(devices.front()->id()));
+    dialog->setTextValue(devices.front()->nickname());
+    connect(dialog, &QInputDialog::textValueSelected, this, [device = QPointer<Device>(devices.front())](const QString &name) {
+        if (device)
+            device->setNickname(name.trimmed().left(40));
+    });
+    open(dialog);
+}
+
+void DeviceActions::changeId()
+{
+    if (Device *device = single())
+        open(new ChangeIdDialog(*device, m_workbench.commands, m_window));
+}
+
+void DeviceActions::changeBaud()
+{
+    if (Device *device = single())
+        open(new ChangeBaudDialog(*device, m_workbench.commands, m_window));
+}
+
+void DeviceActions::workAtBaud()
+{
+    if (!m_line || m_baudRate <= 0)
+        return;
+    m_workbench.commands.workAtBaud(*m_line, m_baudRate);
+}
+
+void DeviceActions::clearMultiTurn()
+{
+    for (Device *device : reachable())
+        m_workbench.commands.clearMultiTurn(*device);
+}
+
+void DeviceActions::factoryReset()
+{
+    if (Device *device = single())
+        open(new FactoryResetDialog(*device, m_workbench.commands, m_window));
+}
+
+void DeviceActions::forget()
+{
+    for (Device *device : devices())
+        device->line()->forget(device->key());
+}
+
+} // namespace dynascope

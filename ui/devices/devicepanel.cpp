@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/devices/devicepanel.h"
+
+#include "core/session/scanner.h"
+#include "core/session/stopcontrol.h"
+#include "ui/common/icons.h"
+#include "ui/devices/deviceactions.h"
+#include "ui/devices/devicedelegate.h"
+#include "ui/devices/devicetreemodel.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QStackedWidget>
+#include <QToolButton>
+#include <QTreeView>
+
+namespace dynascope {
+
+DevicePanel::DevicePanel(const Workbench &workbench, QWidget *parent)
+    : QWidget(parent)
+    , m_workbench(workbench)
+    , m_actions(new DeviceActions(workbench, this))
+    , m_model(new DeviceTreeModel(workbench.session, this))
+    , m_tree(new QTreeView(this))
+    , m_stack(new QStackedWidget(this))
+{
+    setObjectName(QStringLiteral("devicePanel"));
+    makeTree();
+    m_stack->addWidget(makeEmptyView());
+    m_stack->addWidget(m_tree);
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(makeHeader());
+    layout->addWidget(m_stack, 1);
+
+    const auto updateActions = [this] { m_actions->update(); };
+    connect(m_model, &QAbstractItemModel::dataChanged, m_actions, updateActions);
+    connect(&workbench.stop, &StopControl::changed, m_actions, updateActions);
+    connect(m_model, &QAbstractItemModel::rowsInserted, this, &DevicePanel::updateEmptyView);
+    connect(m_model, &QAbstractItemModel::rowsRemoved, this, &DevicePanel::updateEmptyView);
+    connect(m_model, &QAbstractItemModel::dataChanged, this, &DevicePanel::updateEmptyView);
+    connect(&workbench.scanner, &Scanner::progressChanged, this, &DevicePanel::updateEmptyView);
+    connect(&workbench.scanner, &Scanner::finished, this, &DevicePanel::updateEmptyView);
+    // After the model, which was connected first: the row is there.
+    connect(&workbench.session, &Session::deviceAdded, this, &DevicePanel::onDeviceAdded);
+    updateEmptyView();
+    onSelection();
+}
+
+void DevicePanel::makeTree()
+{
+    m_tree->setObjectName(QStringLiteral("deviceTree"));
+    m_tree->setAccessibleName(tr("Devices"));
+    m_tree->setFrameShape(QFrame::NoFrame);
+    m_tree->setModel(m_model);
+    m_tree->setItemDelegate(new DeviceDelegate(m_tree));
+    m_tree->setHeaderHidden(true);
+    m_tree->setIndentation(14);
+    m_tree->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    m_tree->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    m_tree->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    m_tree->setTextElideMode(Qt::ElideMiddle);
+    connect(m_tree->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DevicePanel::onSelection);
+    connect(m_tree, &QWidget::customContextMenuRequested, this, &DevicePanel::showContextMenu);
+    connect(m_model, &QAbstractItemModel::rowsInserted, m_tree, [this](const QModelIndex &parent) {
+        for (QModelIndex index = parent; index.isValid(); index = index.parent())
+            m_tree->expand(index);
+    });
+    connect(m_model, &QAbstractItemModel::rowsMoved, m_tree,
+            [this](const QModelIndex &, int, int, const QModelIndex &to) { m_tree->expand(to); });
+    for (QAction *action : m_actions->menuActions()) {
+        if (!action)
+            continue;
+        // Del belongs to the tree alone: elsewhere it edits text. The rest works in the whole window.
+        action->setShortcutContext(action->shortcut() == QKeySequence(Qt::Key_Delete) ? Qt::WidgetShortcut
+                                                                                        : Qt::WindowShortcut);
+        m_tree->addAction(action);
+    }
+    m_tree->expandAll();
+}
+
+QWidget *DevicePanel::makeHeader()
+{
+    auto *header = new QWidget(this);
+    auto *layout = new QHBoxLayout(header);
+    layout->setContentsMargins(12, 4, 4, 4);
+    layout->setSpacing(0);
+    auto *title = new QLabel(tr("Devices"), header);
+    QFont bold = title->font();
+    bold.setWeight(QFont::DemiBold);
+    title->setFont(bold);
+    layout->addWidget(title, 1);
+    m_row = new QWidget(header);
+    auto *row = new QHBoxLayout(m_row);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(0);
+    for (QAction *action : m_actions->rowActions()) {
+        auto *button = new QToolButton(m_row);
+        button->setDefaultAction(action);
+        button->setObjectName(action->objectName().chopped(6) + QStringLiteral("Button"));
+        button->setAccessibleName(action->text());
+        button->setAutoRaise(true);
+        button->setIconSize(QSize(18, 18));
+        button->setFixedSize(28, 28);
+        row->addWidget(button);
+    }
+    auto *more = new QToolButton(m_row);
+    more->setObjectName(QStringLiteral("moreActionsButton"));
+    more->setIcon(icon(QStringLiteral("more")));
+    more->setIconSize(QSize(18, 18));
+    more->setFixedSize(28, 28);
+    more->setAutoRaise(true);
+    more->setToolTip(tr("More actions for the selected devices"));
+    more->setAccessibleName(tr("More actions"));
+    connect(more, &QToolButton::clicked, this, [this, more] {
+        showContextMenu(m_tree->viewport()->mapFromGlobal(more->mapToGlobal(QPoint(0, more->height()))));
+    });
+    row->addWidget(more);
+    layout->addWidget(m_row);
+    header->setFixedHeight(37);
+    return header;
+}
+
+QWidget *DevicePanel::makeEmptyView()
+{
+    auto *view = new QWidget(this);
+    auto *layout = new QVBoxLayout(view);
+    layout->setContentsMargins(24, 24, 24, 24);
+    layout->setSpacing(12);
+    m_emptyText = new QLabel(view);
+    m_emptyText->setWordWrap(true);
+    m_emptyText->setAlignment(Qt::AlignCenter);
+    m_emptyText->setForegroundRole(QPalette::PlaceholderText);
+    m_emptyAction = new QPushButton(view);
+    m_emptyAction->setObjectName(QStringLiteral("emptyDevicesButton"));
+    connect(m_emptyAction, &QPushButton::clicked, this, [this] {
+        if (m_workbench.session.lines().empty())
+            emit connectRequested();
+        else
+            emit scanRequested();
+    });
+    layout->addStretch(1);
+    layout->addWidget(m_emptyText);
+    layout->addWidget(m_emptyAction, 0, Qt::AlignHCenter);
+    layout->addStretch(2);
+    return view;
+}
+
+void DevicePanel::updateEmptyView()
+{
+    const bool any = !m_workbench.session.devices().empty();
+    m_stack->setCurrentIndex(any ? 1 : 0);
+    if (any)
+        return;
+    const bool connected = !m_workbench.session.lines().empty();
+    const bool scanning = m_workbench.scanner.isRunning();
+    m_emptyText->setText(scanning ? tr("Looking for devices…")
+                             : connected ? tr("No device was found yet.")
+                                         : tr("The servos of a bus appear here."));
+    m_emptyAction->setText(connected ? tr("Scan") : tr("Connect a port"));
+    m_emptyAction->setIcon(icon(connected ? QStringLiteral("scan") : QStringLiteral("connect")));
+    m_emptyAction->setVisible(!scanning);
+}
+
+std::vector<Device *> DevicePanel::selectedDevices() const
+{
+    std::vector<Device *> devices;
+    const QModelIndexList rows = m_tree->selectionModel()->selectedRows();
+    for (const QModelIndex &index : rows) {
+        if (Device *device = m_model->device(index))
+            devices.push_back(device);
+    }
+    return devices;
+}
+
+void DevicePanel::selectDevice(Device *device)
+{
+    const QModelIndex index = m_model->indexOf(device);
+    if (index.isValid()) {
+        m_tree->setCurrentIndex(index);
+        m_tree->scrollTo(index);
+    }
+}
+
+void DevicePanel::onDeviceAdded(Device *device)
+{
+    // The first one found: the table has something to show at once.
+    if (selectedDevices().empty() && device->state() == Device::State::Present)
+        selectDevice(device);
+}
+
+void DevicePanel::onSelection()
+{
+    const QModelIndexList rows = m_tree->selectionModel()->selectedRows();
+    const QModelIndex current = rows.isEmpty() ? QModelIndex() : rows.first();
+    m_actions->setSelection(selectedDevices(), m_model->line(current), m_model->baudRate(current));
+    emit selectionChanged();
+}
+
+void DevicePanel::showContextMenu(const QPoint &position)
+{
+    auto *menu = new QMenu(this);
+    menu->setObjectName(QStringLiteral("deviceMenu"));
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->setToolTipsVisible(true);
+    for (QAction *action : m_actions->menuActions()) {
+        if (action)
+            menu->addAction(action);
+        else
+            menu->addSeparator();
+    }
+    menu->popup(m_tree->viewport()->mapToGlobal(position));
+}
+
+} // namespace dynascope

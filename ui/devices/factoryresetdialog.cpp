@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/devices/factoryresetdialog.h"
+
+#include "core/session/commands.h"
+#include "ui/common/texts.h"
+
+#include <QButtonGroup>
+#include <QFormLayout>
+#include <QLabel>
+#include <QRadioButton>
+
+namespace dynascope {
+
+FactoryResetDialog::FactoryResetDialog(Device &device, Commands &commands, QWidget *parent)
+    : DeviceDialog(device, tr("Factory reset"), tr("Reset"), parent)
+    , m_commands(commands)
+    , m_options(new QButtonGroup(this))
+{
+    setObjectName(QStringLiteral("factoryResetDialog"));
+    leaveTorque();
+    addOption(ResetOption::AllButIdAndBaud, QStringLiteral("resetKeepIdAndBaud"), tr("Keep ID and baud rate"));
+    addOption(ResetOption::AllButId, QStringLiteral("resetKeepId"), tr("Keep the ID only"));
+    addOption(ResetOption::All, QStringLiteral("resetAll"), tr("Everything"));
+    m_options->buttons().first()->setChecked(true);
+    connect(m_options, &QButtonGroup::idToggled, this, [this] { check(); });
+    FactoryResetDialog::check();
+}
+
+FactoryResetDialog::Place FactoryResetDialog::after(ResetOption option) const
+{
+    Place place{device()->id(), device()->baudRate()};
+    const Field *id = device()->table().find(u"ID");
+    const Field *baud = device()->table().find(u"Baud Rate");
+    if (option == ResetOption::All)
+        place.id = id ? static_cast<int>(id->initial.value_or(1)) : 1;
+    if (option != ResetOption::AllButIdAndBaud)
+        place.baudRate = device()->table().baudRate(baud ? static_cast<int>(baud->initial.value_or(1)) : 1).value_or(57600);
+    return place;
+}
+
+void FactoryResetDialog::addOption(ResetOption option, const QString &name, const QString &title)
+{
+    const Place place = after(option);
+    auto *button = new QRadioButton(title, this);
+    button->setObjectName(name);
+    auto *label = new QLabel(this);
+    label->setWordWrap(true);
+    label->setIndent(24);
+    label->setForegroundRole(QPalette::PlaceholderText);
+    const QString where = tr("Afterwards: ID %1 at %2.").arg(place.id).arg(baudText(place.baudRate));
+    label->setText(where);
+    button->setAccessibleDescription(where);
+    m_options->addButton(button, static_cast<int>(option));
+    form()->addRow(button);
+    form()->addRow(label);
+}
+
+ResetOption FactoryResetDialog::option() const
+{
+    return static_cast<ResetOption>(m_options->checkedId());
+}
+
+void FactoryResetDialog::check()
+{
+    if (!device())
+        return;
+    const Place place = after(option());
+    const LineSession *line = device()->line();
+    const Device *other = line ? line->deviceAt(static_cast<std::uint8_t>(place.id), place.baudRate) : nullptr;
+    if (other && other != device()) {
+        setNote(MessageKind::Error, tr("%1 has ID %2 at %3 already: two devices would share one ID.")
+                                        .arg(other->displayName()).arg(place.id).arg(baudText(place.baudRate)));
+        return;
+    }
+    QString text = tr("Limits, gains, modes and offsets go back to the factory's values; they can't be brought back. "
+                      "The device restarts with torque off.");
+    if (device()->isTorqueOn())
+        text += QLatin1Char(' ') + tr("It is under torque now: what it holds may fall.");
+    if (line && place.baudRate != line->baudRate())
+        text += QLatin1Char(' ') + tr("The line works at %1, so it will be parked.").arg(baudText(line->baudRate()));
+    setNote(MessageKind::Warning, text);
+}
+
+void FactoryResetDialog::accept()
+{
+    if (device())
+        m_commands.factoryReset(*device(), option());
+    DeviceDialog::accept();
+}
+
+} // namespace dynascope

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/protocol/protocol_values.h"
+#include "ui/devices/devicedialog.h"
+
+class QButtonGroup;
+
+namespace dynascope {
+
+class Commands;
+
+/// The three options of Factory Reset, each with what survives it.
+class FactoryResetDialog : public DeviceDialog
+{
+    Q_OBJECT
+
+public:
+    FactoryResetDialog(Device &device, Commands &commands, QWidget *parent);
+
+    void accept() override;
+
+protected:
+    void check() override;
+
+private:
+    /// Where the device would stand afterwards.
+    struct Place {
+        int id = 0;
+        int baudRate = 0;
+    };
+    Place after(ResetOption option) const;
+    void addOption(ResetOption option, const QString &name, const QString &title);
+    ResetOption option() const;
+
+    Commands &m_commands;
+    QButtonGroup *m_options;
+};
+
+} // namespace dynascope
