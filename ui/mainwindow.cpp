@@ -1,15 +1,270 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/mainwindow.h"
 
+#include "core/session/commands.h"
+#include "core/session/monitor.h"
+#include "core/session/scanner.h"
+#include "core/session/stopcontrol.h"
+#include "ui/common/icons.h"
+#include "ui/common/messagebar.h"
+#include "ui/common/stopkey.h"
+#include "ui/connection/connectionbar.h"
+#include "ui/connection/connector.h"
+#include "ui/devices/deviceactions.h"
+#include "ui/devices/devicepanel.h"
+#include "ui/plot/plotarea.h"
+#include "ui/table/tablepanel.h"
+#include "ui/window/layoutmanager.h"
+#include "ui/window/menus.h"
+#include "ui/window/outcomes.h"
+#include "ui/window/statusview.h"
+#include "ui/window/torqueguard.h"
+#include "ui/window/welcomepage.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QSettings>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
 namespace dynascope {
 
-MainWindow::MainWindow(const Workbench &, QWidget *parent)
+namespace {
+
+const QString PlotsKey = QStringLiteral("window/plots");
+
+} // namespace
+
+MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     : QMainWindow(parent)
+    , m_workbench(workbench)
+    , m_connector(new Connector(workbench, this))
+    , m_bar(new ConnectionBar(workbench, *m_connector, this))
+    , m_stopBar(new MessageBar(this))
+    , m_messages(new MessageBar(this))
+    , m_pages(new QStackedWidget(this))
+    , m_welcome(new WelcomePage(workbench.ports, this))
+    , m_outer(new QSplitter(Qt::Horizontal, this))
+    , m_inner(new QSplitter(Qt::Horizontal, this))
+    , m_devices(new DevicePanel(workbench, this))
+    , m_table(new TablePanel(workbench, this))
+    , m_plots(new PlotArea(workbench, this))
+    , m_status(new StatusView(this))
+    , m_guard(new TorqueGuard(workbench, this))
 {
+    setObjectName(QStringLiteral("mainWindow"));
+    setWindowTitle(tr("Dynascope"));
+    setWindowIcon(applicationIcon());
+    setMinimumSize(900, 600);
+    build();
+    m_layout = new LayoutManager(*this, *m_outer, *m_inner);
+    m_menus = new Menus(*this, m_devices->actions().menuActions(), *m_layout);
+
+    auto *key = new StopKey(this);
+    qApp->installEventFilter(key);
+    connect(key, &StopKey::pressed, &m_workbench.stop, &StopControl::press);
+    new Outcomes(workbench, *m_messages, *m_stopBar, [this](const Device &device) {
+        const std::vector<Device *> selected = m_devices->selectedDevices();
+        return std::ranges::find(selected, &device) != selected.end();
+    });
+    connectConnection();
+    connectDevices();
+    connectPlots();
+    setScheme(savedColorScheme());
+    m_bar->setPort(Connector::lastPort(), Connector::lastBaudRate());
+    restoreParts();
+    onLines();
 }
 
 MainWindow::~MainWindow() = default;
 
-void MainWindow::connectTo(const QString &, int) {}
+void MainWindow::build()
+{
+    m_stopBar->setObjectName(QStringLiteral("stopBar"));
+    m_stopBar->setDismissable(false);
+    m_devices->setMinimumWidth(216);
+    m_table->setMinimumSize(360, 180);
+    m_plots->setMinimumSize(280, 160);
+    m_inner->addWidget(m_table);
+    m_inner->addWidget(m_plots);
+    m_outer->addWidget(m_devices);
+    m_outer->addWidget(m_inner);
+    m_pages->addWidget(m_welcome);
+    m_pages->addWidget(m_outer);
+
+    auto *centre = new QWidget(this);
+    auto *layout = new QVBoxLayout(centre);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    auto *edge = new QFrame(centre);
+    edge->setFrameShape(QFrame::HLine);
+    edge->setFixedHeight(1);
+    layout->addWidget(edge);
+    layout->addWidget(m_stopBar);
+    layout->addWidget(m_messages);
+    layout->addWidget(m_pages, 1);
+    setCentralWidget(centre);
+    addToolBar(Qt::TopToolBarArea, m_bar);
+    setContextMenuPolicy(Qt::NoContextMenu); // the one of a QMainWindow hides tool bars
+    statusBar()->addWidget(m_status, 1);
+    statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::connectConnection()
+{
+    const auto connectHere = [this](const QString &port) { connectTo(port, 0); };
+    connect(m_connector, &Connector::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
+    connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
+    connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);
+    connect(&m_workbench.scanner, &Scanner::progressChanged, this, &MainWindow::onLines);
+    connect(m_welcome, &WelcomePage::choosePortRequested, m_bar, &ConnectionBar::choosePort);
+    connect(m_welcome, &WelcomePage::connectRequested, this, connectHere);
+    connect(m_menus, &Menus::choosePortRequested, m_bar, &ConnectionBar::choosePort);
+    connect(m_menus, &Menus::toggleConnectionRequested, m_bar, &ConnectionBar::toggleConnection);
+    connect(m_menus, &Menus::connectRequested, this, connectHere);
+    connect(m_menus, &Menus::scanRequested, m_bar, &ConnectionBar::startScan);
+    connect(m_menus, &Menus::scanOptionsRequested, m_bar, &ConnectionBar::showScanOptions);
+    connect(m_menus, &Menus::resumeDemoRequested, this, &MainWindow::resumeDemoRequested);
+    connect(m_menus, &Menus::stopRequested, &m_workbench.stop, &StopControl::press);
+    connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
+    connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
+        saveColorScheme(scheme);
+        emit schemeRequested(scheme);
+    });
+}
+
+void MainWindow::connectDevices()
+{
+    connect(m_devices, &DevicePanel::selectionChanged, this, &MainWindow::onSelection);
+    connect(m_devices, &DevicePanel::connectRequested, m_bar, &ConnectionBar::choosePort);
+    connect(m_devices, &DevicePanel::scanRequested, m_bar, &ConnectionBar::startScan);
+    connect(&m_devices->actions(), &DeviceActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(&m_devices->actions(), &DeviceActions::torqueEnabled, m_guard, &TorqueGuard::noteEnabled);
+    connect(m_guard, &TorqueGuard::closeAgreed, this, &QWidget::close, Qt::QueuedConnection);
+    const auto inform = [this](const QString &text) { m_messages->post(MessageKind::Info, text); };
+    connect(m_devices, &DevicePanel::message, this, inform);
+    connect(m_table, &TablePanel::message, this, inform);
+    connect(m_plots, &PlotArea::message, this, inform);
+    connect(&m_workbench.session, &Session::deviceAdded, this, &MainWindow::countDevices);
+    connect(&m_workbench.session, &Session::deviceAboutToBeRemoved, this, [this](Device *device) {
+        m_asked.erase(device->key());
+        QMetaObject::invokeMethod(this, &MainWindow::countDevices, Qt::QueuedConnection);
+    });
+}
+
+void MainWindow::connectPlots()
+{
+    connect(m_table, &TablePanel::plotRequested, m_plots, &PlotArea::addTrace);
+    connect(m_table, &TablePanel::unplotRequested, m_plots, &PlotArea::removeTrace);
+}
+
+void MainWindow::connectTo(const QString &port, int baudRate)
+{
+    const QString name = port.isEmpty() ? Connector::lastPort() : port;
+    if (name.isEmpty())
+        return;
+    m_bar->setPort(name, baudRate > 0 ? baudRate : Connector::lastBaudRate());
+    m_connector->connectTo(name, baudRate > 0 ? baudRate : Connector::lastBaudRate());
+}
+
+void MainWindow::setScheme(ColorScheme scheme)
+{
+    m_menus->setScheme(scheme);
+}
+
+void MainWindow::onLines()
+{
+    LineSession *line = m_bar->currentLine();
+    const bool open = line && line->state() == BusThread::State::Open;
+    m_status->setLine(line);
+    m_menus->setConnected(line != nullptr, open && !m_workbench.scanner.isRunning(),
+                          open && line->name() == QStringLiteral("sim"));
+    // A line that is only being opened for the first time changes nothing yet: it may not come to be.
+    const auto &lines = m_workbench.session.lines();
+    const bool any = std::ranges::any_of(lines, [](const auto &each) {
+        return each->state() == BusThread::State::Open || !each->devices().empty();
+    });
+    m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+    setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
+    countDevices();
+}
+
+void MainWindow::onSelection()
+{
+    std::vector<Device *> devices = m_devices->selectedDevices();
+    // The table shows one model at a time: that of the first.
+    std::erase_if(devices, [first = devices.empty() ? nullptr : devices.front()](const Device *device) {
+        return &device->table() != &first->table();
+    });
+    m_table->setDevices(devices);
+    m_workbench.monitor.select(devices);
+    for (Device *device : devices)
+        readOnce(*device);
+}
+
+void MainWindow::readOnce(Device &device)
+{
+    if (!device.isKnownModel() || device.line()->state() != BusThread::State::Open
+        || !m_asked.insert(device.key()).second)
+        return;
+    m_workbench.commands.readAll(device, [here = QPointer<MainWindow>(this), key = device.key()](const Result<void> &result) {
+        if (here && !result)
+            here->m_asked.erase(key); // the next look at it asks again
+    });
+}
+
+void MainWindow::countDevices()
+{
+    int present = 0;
+    int parked = 0;
+    if (const LineSession *line = m_bar->currentLine()) {
+        for (const auto &device : line->devices())
+            ++(device->baudRate() == line->baudRate() ? present : parked);
+    }
+    m_status->setDeviceCount(present, parked);
+}
+
+void MainWindow::focusPane(int pane)
+{
+    QWidget *const panes[]{m_devices, m_table, m_plots};
+    QWidget *target = panes[pane];
+    // The first thing in it that takes keys; a pane itself takes none.
+    for (QWidget *child : target->findChildren<QWidget *>()) {
+        if (child->isVisible() && child->isEnabled() && child->inherits("QAbstractItemView")
+            && (child->focusPolicy() & Qt::TabFocus)) {
+            child->setFocus(Qt::ShortcutFocusReason);
+            return;
+        }
+    }
+    if (QWidget *next = target->nextInFocusChain())
+        next->setFocus(Qt::ShortcutFocusReason);
+}
+
+void MainWindow::restoreParts()
+{
+    m_layout->restore();
+    m_plots->restoreState(QSettings().value(PlotsKey).toByteArray());
+}
+
+void MainWindow::saveParts() const
+{
+    m_layout->save();
+    QSettings().setValue(PlotsKey, m_plots->saveState());
+}
+
+void MainWindow::closeEvent(QCloseEvent *event)
+{
+    if (!m_guard->mayClose()) {
+        event->ignore();
+        return;
+    }
+    saveParts();
+    QMainWindow::closeEvent(event);
+}
 
 } // namespace dynascope

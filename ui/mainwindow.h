@@ -1,14 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/session.h"
 #include "ui/common/theme.h"
 #include "ui/common/workbench.h"
 
 #include <QMainWindow>
 
+#include <set>
+
+class QSplitter;
+class QStackedWidget;
+
 namespace dynascope {
 
+class ConnectionBar;
+class Connector;
+class DevicePanel;
+class LayoutManager;
+class Menus;
+class MessageBar;
+class PlotArea;
+class StatusView;
+class TablePanel;
+class TorqueGuard;
+class WelcomePage;
+struct Watch;
+
 /// The window: devices left, control table centre, plots right or below; connection bar, STOP, message bar, status bar.
+/// It puts its parts together and decides nothing about devices.
 class MainWindow : public QMainWindow
 {
     Q_OBJECT
@@ -17,12 +37,49 @@ public:
     explicit MainWindow(const Workbench &workbench, QWidget *parent = nullptr);
     ~MainWindow() override;
 
-    /// Opens a line and scans it: the port of the command line, or the one from last time.
+    /// Opens a line and scans it: the port of the command line or, where `port` is empty, the one from last time; without
+    /// either the welcome stays. `baudRate` 0: the one from last time.
     void connectTo(const QString &port, int baudRate);
+
+    void setScheme(ColorScheme scheme); ///< which one the menu ticks; applied by who asked for it
 
 signals:
     void schemeRequested(dynascope::ColorScheme scheme);
     void resumeDemoRequested();
+
+protected:
+    void closeEvent(QCloseEvent *event) override;
+
+private:
+    void build();
+    void connectDevices();
+    void connectConnection();
+    void connectPlots();
+    void onSelection();
+    void onLines();
+    void readOnce(Device &device);
+    void countDevices();
+    void focusPane(int pane);
+    void restoreParts();
+    void saveParts() const;
+
+    Workbench m_workbench;
+    Connector *m_connector;
+    ConnectionBar *m_bar;
+    MessageBar *m_stopBar;
+    MessageBar *m_messages;
+    QStackedWidget *m_pages;
+    WelcomePage *m_welcome;
+    QSplitter *m_outer;
+    QSplitter *m_inner;
+    DevicePanel *m_devices;
+    TablePanel *m_table;
+    PlotArea *m_plots;
+    StatusView *m_status;
+    LayoutManager *m_layout;
+    Menus *m_menus;
+    TorqueGuard *m_guard;
+    std::set<DeviceKey> m_asked; ///< whose registers have been asked for once
 };
 
 } // namespace dynascope

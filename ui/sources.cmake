@@ -3,4 +3,11 @@ qt_add_resources(dynascope_ui dynascope_icons PREFIX /icons BASE ${PROJECT_SOURC
     FILES ${DYNASCOPE_ICONS})
 target_sources(dynascope_ui PRIVATE
     mainwindow.cpp mainwindow.h
+    window/helpdialogs.cpp window/helpdialogs.h
+    window/layoutmanager.cpp window/layoutmanager.h
+    window/menus.cpp window/menus.h
+    window/outcomes.cpp window/outcomes.h
+    window/statusview.cpp window/statusview.h
+    window/torqueguard.cpp window/torqueguard.h
+    window/welcomepage.cpp window/welcomepage.h
 )

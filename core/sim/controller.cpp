@@ -16,9 +16,9 @@ namespace {
 constexpr double positionPScale = 128, positionIScale = 65536, positionDScale = 16, feedforwardScale = 4;
 constexpr double velocityPScale = 128, velocityIScale = 65536;
 
-/// Time the current loop takes to make up for back-EMF. Chosen: slower than the shaft swings, so that back-EMF still
-/// damps current-based position control, which has no other damping at its default gains.
-constexpr double currentIntegralTime = 100; // ms
+/// ms the current loop takes to make up for back-EMF. Chosen: quick in current mode; in current-based position control
+/// slower than the shaft swings, so that back-EMF still damps it: its default gains have no other damping.
+constexpr double currentModeTime = 3, currentPositionTime = 100;
 
 double within(double value, double bound)
 {
@@ -30,7 +30,6 @@ double within(double value, double bound)
 Controller::Controller(const MotorModel &motor, double resolution)
     : m_resolution(resolution)
     , m_resistance(motor.resistance())
-    , m_backEmf(motor.backEmf() * 2 * 3.14159265358979 * 1000 / resolution)
 {
 }
 
@@ -43,13 +42,19 @@ double Controller::pwmBound(const JointSettings &settings)
 
 double Controller::pwm(const JointSettings &settings, const Feedback &feedback)
 {
+    m_last = order(settings, feedback);
+    return m_last;
+}
+
+double Controller::order(const JointSettings &settings, const Feedback &feedback)
+{
     const double bound = pwmBound(settings);
     const double ampere = settings.currentUnit / 1000;
     const double limit = std::abs(settings.currentLimit * ampere);
     switch (settings.operatingMode) {
     case 0: {
         const double wanted = within(settings.goalCurrent * ampere, limit);
-        return current(wanted, std::abs(wanted), feedback, bound);
+        return current(wanted, std::abs(wanted), currentModeTime, feedback, bound);
     }
     case 1:
         return velocity(settings, feedback, bound);
@@ -59,7 +64,7 @@ double Controller::pwm(const JointSettings &settings, const Feedback &feedback)
             return 0;
         // The position controller's output counts as raw current.
         const double wanted = position(settings, feedback, ceiling / ampere) * ampere;
-        return current(wanted, ceiling, feedback, bound);
+        return current(wanted, ceiling, currentPositionTime, feedback, bound);
     }
     case 16:
         return within(settings.goalPwm, bound);
@@ -89,17 +94,18 @@ double Controller::velocity(const JointSettings &settings, const Feedback &feedb
     return within(error * settings.velocityP / velocityPScale + m_integral, bound);
 }
 
-double Controller::current(double wanted, double ceiling, const Feedback &feedback, double bound)
+double Controller::current(double wanted, double ceiling, double integralTime, const Feedback &feedback, double bound)
 {
     const double perVolt = fullPwm / std::max(1.0, feedback.voltage);
     const double error = (wanted - feedback.current) * m_resistance * perVolt;
-    // What keeps the current below its ceiling at this speed, also while braking.
-    const double emf = feedback.velocity * m_backEmf * perVolt;
+    // What keeps the current below its ceiling at this speed, also while braking. The last PWM and the current it brought
+    // tell back-EMF a few milliseconds before the velocity estimate does.
+    const double emf = m_last - feedback.current * m_resistance * perVolt;
     const double room = ceiling * m_resistance * perVolt;
     const double feed = wanted * m_resistance * perVolt;
     const double pwm = within(std::clamp(feed + m_currentIntegral, emf - room, emf + room), bound);
     // The sum stands still while the output can't follow it.
-    const double next = m_currentIntegral + error / currentIntegralTime;
+    const double next = m_currentIntegral + error / integralTime;
     if (std::abs(feed + next) <= bound || std::abs(next) < std::abs(m_currentIntegral))
         m_currentIntegral = within(next, bound);
     return pwm;

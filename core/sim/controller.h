@@ -28,7 +28,7 @@ public:
 
     Controller(const MotorModel &motor, double resolution); ///< pulses per turn
 
-    void reset() { m_integral = m_currentIntegral = 0; }
+    void reset() { m_integral = m_currentIntegral = m_last = 0; }
     double pwm(const JointSettings &settings, const Feedback &feedback); ///< raw, within its bounds
 
     static double pwmBound(const JointSettings &settings);
@@ -36,15 +36,16 @@ public:
     friend bool operator==(const Controller &, const Controller &) = default;
 
 private:
+    double order(const JointSettings &settings, const Feedback &feedback);
     double position(const JointSettings &settings, const Feedback &feedback, double bound);
     double velocity(const JointSettings &settings, const Feedback &feedback, double bound);
-    double current(double wanted, double ceiling, const Feedback &feedback, double bound);
+    double current(double wanted, double ceiling, double integralTime, const Feedback &feedback, double bound);
 
     double m_resolution;
     double m_resistance;      ///< Ω
-    double m_backEmf;         ///< V per pulse/ms
     double m_integral = 0;    ///< already in units of the output, so that a new gain doesn't make it jump
     double m_currentIntegral = 0; ///< raw PWM
+    double m_last = 0;            ///< raw PWM of the tick before
 };
 
 } // namespace dynascope::sim

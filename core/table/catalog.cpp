@@ -53,7 +53,8 @@ Result<std::vector<std::pair<QString, QByteArray>>> readFolder(const QString &pa
     std::vector<std::pair<QString, QByteArray>> ordered;
     QStringList done{QString()};
     while (!pending.empty()) {
-        auto next = std::find_if(pending.begin(), pending.end(), [&](const Pending &p) { return done.contains(p.extends); });
+        auto next =
+            std::find_if(pending.begin(), pending.end(), [&](const Pending &p) { return done.contains(p.extends); });
         if (next == pending.end())
             next = pending.begin(); // adding it will say what is missing
         done.append(stem(next->name));
@@ -97,7 +98,8 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
     if (file.contains(u"extends")) {
         const auto found = m_files.find(file.value(u"extends").toString());
         if (found == m_files.end())
-            return bad(name, QStringLiteral("extends \"%1\", which is not there").arg(file.value(u"extends").toString()));
+            return bad(
+                name, QStringLiteral("extends \"%1\", which is not there").arg(file.value(u"extends").toString()));
         base = found->second;
     }
     const QJsonObject models = file.value(u"models").toObject();
@@ -134,11 +136,10 @@ QString Catalog::addModel(const QString &name, const QJsonObject &settings, cons
         return QStringLiteral("%1: this name or the number %2 is taken").arg(name).arg(built.modelNumber);
     m_models.push_back({built.modelNumber, built.model, built.series, builder.newestFirmware()});
     std::sort(m_models.begin(), m_models.end(),
-              [](const ModelInfo &a, const ModelInfo &b) { return a.modelNumber < b.modelNumber; });
+        [](const ModelInfo &a, const ModelInfo &b) { return a.modelNumber < b.modelNumber; });
     m_tables.insert(m_tables.end(), tables.begin(), tables.end());
-    std::stable_sort(m_tables.begin(), m_tables.end(), [](const ControlTablePtr &a, const ControlTablePtr &b) {
-        return a->modelNumber() < b->modelNumber();
-    });
+    std::stable_sort(m_tables.begin(), m_tables.end(),
+        [](const ControlTablePtr &a, const ControlTablePtr &b) { return a->modelNumber() < b->modelNumber(); });
     return {};
 }
 
@@ -155,15 +156,15 @@ ControlTablePtr Catalog::find(int modelNumber, int firmware) const
 const Catalog::ModelInfo *Catalog::model(QStringView name) const
 {
     const QString wanted = normalizedName(name);
-    const auto found = std::find_if(m_models.begin(), m_models.end(),
-                                    [&](const ModelInfo &info) { return normalizedName(info.model) == wanted; });
+    const auto found = std::find_if(
+        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return normalizedName(info.model) == wanted; });
     return found == m_models.end() ? nullptr : &*found;
 }
 
 const Catalog::ModelInfo *Catalog::model(int modelNumber) const
 {
-    const auto found = std::find_if(m_models.begin(), m_models.end(),
-                                    [&](const ModelInfo &info) { return info.modelNumber == modelNumber; });
+    const auto found = std::find_if(
+        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return info.modelNumber == modelNumber; });
     return found == m_models.end() ? nullptr : &*found;
 }
 

@@ -5,8 +5,7 @@
 
 namespace dynascope {
 
-ControlTable::ControlTable(Description description)
-    : m_description(std::move(description))
+ControlTable::ControlTable(Description description) : m_description(std::move(description))
 {
     m_byName.reserve(m_description.fields.size());
     for (std::size_t i = 0; i < m_description.fields.size(); ++i) {
@@ -33,8 +32,8 @@ const Field *ControlTable::find(QStringView name) const
 const Field *ControlTable::at(int address) const
 {
     const auto &all = m_description.fields;
-    const auto found = std::lower_bound(all.begin(), all.end(), address,
-                                        [](const Field &field, int wanted) { return field.address < wanted; });
+    const auto found = std::lower_bound(
+        all.begin(), all.end(), address, [](const Field &field, int wanted) { return field.address < wanted; });
     return found != all.end() && found->address == address ? &*found : nullptr;
 }
 

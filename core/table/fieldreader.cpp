@@ -20,9 +20,16 @@ struct UnitName {
 };
 
 constexpr UnitName UnitNames[] = {
-    {u"pulse", Unit::Pulse}, {u"rev/min", Unit::RevPerMin}, {u"rev/min2", Unit::RevPerMin2},
-    {u"mA", Unit::MilliAmpere}, {u"%", Unit::Percent}, {u"V", Unit::Volt}, {u"degC", Unit::Celsius},
-    {u"us", Unit::Microsecond}, {u"ms", Unit::Millisecond}, {u"mV/ms", Unit::MilliVoltPerMs},
+    {u"pulse", Unit::Pulse},
+    {u"rev/min", Unit::RevPerMin},
+    {u"rev/min2", Unit::RevPerMin2},
+    {u"mA", Unit::MilliAmpere},
+    {u"%", Unit::Percent},
+    {u"V", Unit::Volt},
+    {u"degC", Unit::Celsius},
+    {u"us", Unit::Microsecond},
+    {u"ms", Unit::Millisecond},
+    {u"mV/ms", Unit::MilliVoltPerMs},
 };
 
 std::int64_t bitMask(const BitField &bit)
@@ -178,7 +185,7 @@ void FieldReader::readUnit(const QJsonObject &json, Unit &unit, double &scale)
     if (!name.isUndefined()) {
         const QString text = name.toString();
         const auto known = std::find_if(std::begin(UnitNames), std::end(UnitNames),
-                                        [&](const UnitName &candidate) { return text == QStringView(candidate.name); });
+            [&](const UnitName &candidate) { return text == QStringView(candidate.name); });
         if (known == std::end(UnitNames))
             return say(QStringLiteral("unknown unit \"%1\"").arg(text));
         unit = known->unit;
@@ -243,7 +250,7 @@ void FieldReader::readBits(const QJsonObject &json)
     if (!m_field.bits.empty() && !m_field.values.empty())
         say(QStringLiteral("has values and bits; it can only have one of them"));
     std::sort(m_field.bits.begin(), m_field.bits.end(),
-              [](const BitField &a, const BitField &b) { return a.first < b.first; });
+        [](const BitField &a, const BitField &b) { return a.first < b.first; });
 }
 
 void FieldReader::readBit(const QString &name, const QJsonObject &json)
@@ -295,9 +302,8 @@ std::optional<Alternate> FieldReader::readAlternate(const QJsonObject &json)
         say(QStringLiteral("an alternate needs \"register\", one of this table, and either \"bit\" or \"values\""));
         return std::nullopt;
     }
-    const bool applies = byBit
-        ? resolveBit(decider.toObject(), json.value(u"bit").toString(), alternate)
-        : resolveValues(decider.toObject(), json.value(u"values").toArray(), alternate);
+    const bool applies = byBit ? resolveBit(decider.toObject(), json.value(u"bit").toString(), alternate)
+                               : resolveValues(decider.toObject(), json.value(u"values").toArray(), alternate);
     // An alternate exists only where the register that decides does.
     return applies && holdsFor(decider.toObject(), m_context.firmware) ? std::optional(alternate) : std::nullopt;
 }
@@ -347,8 +353,10 @@ void FieldReader::checkFits(std::int64_t number, const QString &what)
 {
     if (number < smallestRaw(m_field) || number > largestRaw(m_field)) {
         say(QStringLiteral("%1 %2 doesn't fit %3 %4 byte(s)")
-                .arg(what).arg(number)
-                .arg(m_field.isSigned ? QStringLiteral("signed") : QStringLiteral("unsigned")).arg(m_field.size));
+                .arg(what)
+                .arg(number)
+                .arg(m_field.isSigned ? QStringLiteral("signed") : QStringLiteral("unsigned"))
+                .arg(m_field.size));
     }
 }
 

@@ -17,7 +17,8 @@ std::optional<std::int64_t> wholeNumber(const QJsonValue &value);
 /// Does "since" and "until" of `json`, each optional, let this firmware in?
 bool holdsFor(const QJsonObject &json, int firmware);
 
-/// Reads one register of merged settings for one firmware. The first thing wrong is kept, and reading goes on harmlessly.
+/// Reads one register of merged settings for one firmware. The first thing wrong is kept, and reading goes on
+/// harmlessly.
 class FieldReader
 {
 public:
@@ -28,10 +29,7 @@ public:
         QJsonObject baudRates;
     };
 
-    explicit FieldReader(const Context &context)
-        : m_context(context)
-    {
-    }
+    explicit FieldReader(const Context &context) : m_context(context) { }
 
     Field read(const QString &name, const QJsonObject &json);
     /// What is wrong, beginning with the register's name; empty where nothing is.

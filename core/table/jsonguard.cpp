@@ -13,10 +13,7 @@ namespace {
 class Scan
 {
 public:
-    explicit Scan(const QByteArray &json)
-        : m_json(json)
-    {
-    }
+    explicit Scan(const QByteArray &json) : m_json(json) { }
 
     /// What is wrong, with its line; empty where nothing is. Bad syntax is left for the parser to find.
     QString run()

@@ -28,24 +28,49 @@ constexpr double DegreesPerRadian = 180.0 / std::numbers::pi;
 
 /// Compared in lower case and without spaces. The first of each unit are the ones that messages offer.
 constexpr TypedUnit TypedUnits[] = {
-    {u"deg", Unit::Pulse, 1.0}, {u"rad", Unit::Pulse, DegreesPerRadian}, {u"turn", Unit::Pulse, 360.0},
-    {u"°", Unit::Pulse, 1.0}, {u"degree", Unit::Pulse, 1.0}, {u"degrees", Unit::Pulse, 1.0},
-    {u"turns", Unit::Pulse, 360.0}, {u"rev", Unit::Pulse, 360.0},
-    {u"rpm", Unit::RevPerMin, 1.0}, {u"deg/s", Unit::RevPerMin, 1.0 / 6.0},
-    {u"rad/s", Unit::RevPerMin, DegreesPerRadian / 6.0}, {u"rev/min", Unit::RevPerMin, 1.0},
-    {u"°/s", Unit::RevPerMin, 1.0 / 6.0}, {u"rev/s", Unit::RevPerMin, 60.0},
-    {u"rev/min2", Unit::RevPerMin2, 1.0}, {u"deg/s2", Unit::RevPerMin2, 10.0},
-    {u"rad/s2", Unit::RevPerMin2, 10.0 * DegreesPerRadian}, {u"rev/min²", Unit::RevPerMin2, 1.0},
-    {u"rev/min^2", Unit::RevPerMin2, 1.0}, {u"rpm2", Unit::RevPerMin2, 1.0}, {u"rpm²", Unit::RevPerMin2, 1.0},
-    {u"deg/s²", Unit::RevPerMin2, 10.0}, {u"°/s²", Unit::RevPerMin2, 10.0}, {u"deg/s^2", Unit::RevPerMin2, 10.0},
-    {u"rad/s²", Unit::RevPerMin2, 10.0 * DegreesPerRadian}, {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
-    {u"mA", Unit::MilliAmpere, 1.0}, {u"A", Unit::MilliAmpere, 1000.0},
-    {u"%", Unit::Percent, 1.0}, {u"percent", Unit::Percent, 1.0},
-    {u"V", Unit::Volt, 1.0}, {u"mV", Unit::Volt, 0.001},
-    {u"°C", Unit::Celsius, 1.0}, {u"C", Unit::Celsius, 1.0}, {u"degC", Unit::Celsius, 1.0},
-    {u"us", Unit::Microsecond, 1.0}, {u"ms", Unit::Microsecond, 1000.0}, {u"s", Unit::Microsecond, 1e6},
-    {u"ms", Unit::Millisecond, 1.0}, {u"s", Unit::Millisecond, 1000.0}, {u"us", Unit::Millisecond, 0.001},
-    {u"mV/ms", Unit::MilliVoltPerMs, 1.0}, {u"V/s", Unit::MilliVoltPerMs, 1.0},
+    {u"deg", Unit::Pulse, 1.0},
+    {u"rad", Unit::Pulse, DegreesPerRadian},
+    {u"turn", Unit::Pulse, 360.0},
+    {u"°", Unit::Pulse, 1.0},
+    {u"degree", Unit::Pulse, 1.0},
+    {u"degrees", Unit::Pulse, 1.0},
+    {u"turns", Unit::Pulse, 360.0},
+    {u"rev", Unit::Pulse, 360.0},
+    {u"rpm", Unit::RevPerMin, 1.0},
+    {u"deg/s", Unit::RevPerMin, 1.0 / 6.0},
+    {u"rad/s", Unit::RevPerMin, DegreesPerRadian / 6.0},
+    {u"rev/min", Unit::RevPerMin, 1.0},
+    {u"°/s", Unit::RevPerMin, 1.0 / 6.0},
+    {u"rev/s", Unit::RevPerMin, 60.0},
+    {u"rev/min2", Unit::RevPerMin2, 1.0},
+    {u"deg/s2", Unit::RevPerMin2, 10.0},
+    {u"rad/s2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"rev/min²", Unit::RevPerMin2, 1.0},
+    {u"rev/min^2", Unit::RevPerMin2, 1.0},
+    {u"rpm2", Unit::RevPerMin2, 1.0},
+    {u"rpm²", Unit::RevPerMin2, 1.0},
+    {u"deg/s²", Unit::RevPerMin2, 10.0},
+    {u"°/s²", Unit::RevPerMin2, 10.0},
+    {u"deg/s^2", Unit::RevPerMin2, 10.0},
+    {u"rad/s²", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
+    {u"mA", Unit::MilliAmpere, 1.0},
+    {u"A", Unit::MilliAmpere, 1000.0},
+    {u"%", Unit::Percent, 1.0},
+    {u"percent", Unit::Percent, 1.0},
+    {u"V", Unit::Volt, 1.0},
+    {u"mV", Unit::Volt, 0.001},
+    {u"°C", Unit::Celsius, 1.0},
+    {u"C", Unit::Celsius, 1.0},
+    {u"degC", Unit::Celsius, 1.0},
+    {u"us", Unit::Microsecond, 1.0},
+    {u"ms", Unit::Microsecond, 1000.0},
+    {u"s", Unit::Microsecond, 1e6},
+    {u"ms", Unit::Millisecond, 1.0},
+    {u"s", Unit::Millisecond, 1000.0},
+    {u"us", Unit::Millisecond, 0.001},
+    {u"mV/ms", Unit::MilliVoltPerMs, 1.0},
+    {u"V/s", Unit::MilliVoltPerMs, 1.0},
 };
 
 QString lowered(QStringView text)
@@ -138,8 +163,8 @@ std::optional<std::int64_t> hexadecimal(QStringView text)
     return negative ? -number : number;
 }
 
-Result<std::int64_t> fromUnit(const Field &field, const EffectiveField &effective, int resolution,
-                              const Leading &number)
+Result<std::int64_t> fromUnit(
+    const Field &field, const EffectiveField &effective, int resolution, const Leading &number)
 {
     if (effective.unit == Unit::None)
         return refuse(QStringLiteral("%1 has no unit; give a bare number").arg(field.name));
@@ -154,8 +179,8 @@ Result<std::int64_t> fromUnit(const Field &field, const EffectiveField &effectiv
 }
 
 /// The value whose name this is, or that alone begins so.
-std::optional<std::int64_t> byName(const std::vector<EnumValue> &values, const QString &plain,
-                                   std::optional<std::int64_t> preferred)
+std::optional<std::int64_t> byName(
+    const std::vector<EnumValue> &values, const QString &plain, std::optional<std::int64_t> preferred)
 {
     const EnumValue *begins = nullptr;
     bool several = false;
@@ -288,9 +313,9 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
         if (number->whole)
             return number->integer;
         return refuse(effective.unit == Unit::None
-                          ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
-                          : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
-                                .arg(field.name, typableUnits(effective.unit), text));
+                ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
+                : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
+                      .arg(field.name, typableUnits(effective.unit), text));
     }
     if (!namesOf(field).isEmpty()) {
         const Result<std::int64_t> value = fromName(field, effective, text);
@@ -302,8 +327,8 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
 
 } // namespace
 
-Result<std::int64_t> parseValue(const Field &field, const EffectiveField &effective, int resolution, QStringView text,
-                                AngleUnit angle)
+Result<std::int64_t> parseValue(
+    const Field &field, const EffectiveField &effective, int resolution, QStringView text, AngleUnit angle)
 {
     QString trimmed = text.trimmed().toString();
     trimmed.replace(u'\u2212', u'-'); // the typographic minus, as it comes from copied text

@@ -9,7 +9,7 @@ namespace dynascope {
 namespace {
 
 constexpr int MostRegisters = 2000;
-constexpr int MostTables = 16; ///< of one model
+constexpr int MostTables = 16;    ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
 
 const QString IndirectAddress = QStringLiteral("Indirect Address #");
@@ -18,8 +18,7 @@ const QString IndirectData = QStringLiteral("Indirect Data #");
 } // namespace
 
 TableBuilder::TableBuilder(QString model, QJsonObject settings)
-    : m_model(std::move(model))
-    , m_settings(std::move(settings))
+    : m_model(std::move(model)), m_settings(std::move(settings))
 {
 }
 
@@ -67,7 +66,7 @@ void TableBuilder::readBaudRates()
         m_common.baudCodes.push_back({static_cast<std::uint8_t>(code), static_cast<int>(rate)});
     }
     std::sort(m_common.baudCodes.begin(), m_common.baudCodes.end(),
-              [](const BaudCode &a, const BaudCode &b) { return a.code < b.code; });
+        [](const BaudCode &a, const BaudCode &b) { return a.code < b.code; });
 }
 
 int TableBuilder::readFirmware(const QString &key)
@@ -165,8 +164,8 @@ void TableBuilder::readIndirect(std::vector<Field> &fields)
     }
 }
 
-void TableBuilder::readIndirectBlock(const QJsonObject &block, const QJsonValue &range, int &number,
-                                     std::vector<Field> &fields)
+void TableBuilder::readIndirectBlock(
+    const QJsonObject &block, const QJsonValue &range, int &number, std::vector<Field> &fields)
 {
     const QString where = QStringLiteral("indirect");
     const std::int64_t count = numberIn(block, QStringLiteral("count"), 1, MostNumbered, where);
@@ -201,11 +200,13 @@ void TableBuilder::checkTogether(std::vector<Field> &fields)
 {
     if (fields.empty())
         return say(QStringLiteral("no registers at firmware %1").arg(m_context.firmware));
-    std::stable_sort(fields.begin(), fields.end(), [](const Field &a, const Field &b) { return a.address < b.address; });
+    std::stable_sort(
+        fields.begin(), fields.end(), [](const Field &a, const Field &b) { return a.address < b.address; });
     for (std::size_t i = 1; i < fields.size(); ++i) {
         if (fields[i].address < fields[i - 1].end())
             return say(QStringLiteral("%1: overlaps %2 at address %3")
-                           .arg(fields[i].name, fields[i - 1].name).arg(fields[i].address));
+                           .arg(fields[i].name, fields[i - 1].name)
+                           .arg(fields[i].address));
     }
     checkNames(fields);
 }
@@ -246,8 +247,8 @@ void TableBuilder::checkBound(const Field &field, const Bound &bound, const QStr
         say(QStringLiteral("%1: limited by %2, which is no other register").arg(field.name, bound.reg));
 }
 
-std::int64_t TableBuilder::numberIn(const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high,
-                                    const QString &where)
+std::int64_t TableBuilder::numberIn(
+    const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QString &where)
 {
     const std::optional<std::int64_t> number = wholeNumber(json.value(key));
     if (number && *number >= low && *number <= high)

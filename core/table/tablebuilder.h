@@ -8,8 +8,8 @@
 
 namespace dynascope {
 
-/// Makes the control tables of one model, one for each range of firmware with the same registers, from settings that are
-/// merged already. Everything is checked here; the first thing wrong is kept.
+/// Makes the control tables of one model, one for each range of firmware with the same registers, from settings that
+/// are merged already. Everything is checked here; the first thing wrong is kept.
 class TableBuilder
 {
 public:
@@ -37,8 +37,8 @@ private:
     void checkTogether(std::vector<Field> &fields);
     void checkNames(std::vector<Field> &fields);
     void checkBound(const Field &field, const Bound &bound, const QStringList &names);
-    std::int64_t numberIn(const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high,
-                          const QString &where);
+    std::int64_t numberIn(
+        const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QString &where);
     void say(const QString &what);
 
     QString m_model;

@@ -28,8 +28,9 @@ const QStringList &modelKeys()
 
 const QStringList &registerKeys()
 {
-    static const QStringList list = keys("address count size signed area access initial range unit scale values special "
-                                         "bits alternates resets help since until");
+    static const QStringList list =
+        keys("address count size signed area access initial range unit scale values special "
+             "bits alternates resets help since until");
     return list;
 }
 
@@ -139,7 +140,7 @@ private:
 };
 
 void patch(QJsonObject &target, const QJsonObject &changes, const QString &where, const QJsonObject *definitions,
-           QString *wrong)
+    QString *wrong)
 {
     for (auto it = changes.begin(); it != changes.end(); ++it) {
         const QString place = where.isEmpty() ? it.key() : where + QStringLiteral(": ") + it.key();
@@ -172,7 +173,8 @@ QString wrongKeys(const QJsonObject &file)
 
 QJsonObject merged(const QJsonObject &base, const QJsonObject &changes, QString *wrong)
 {
-    // "definitions" comes before "registers" in a QJsonObject, which is sorted by key, and must: registers start from them.
+    // "definitions" comes before "registers" in a QJsonObject, which is sorted by key, and must: registers start from
+    // them.
     QJsonObject result = base;
     patch(result, changes, {}, nullptr, wrong);
     return result;

@@ -11,8 +11,8 @@ namespace dynascope {
 /// nothing is.
 QString wrongKeys(const QJsonObject &file);
 
-/// `base` changed by `changes`: objects are merged key by key, null removes, everything else replaces. A register that is
-/// new starts from its definition. On failure `wrong` says what it is.
+/// `base` changed by `changes`: objects are merged key by key, null removes, everything else replaces. A register that
+/// is new starts from its definition. On failure `wrong` says what it is.
 QJsonObject merged(const QJsonObject &base, const QJsonObject &changes, QString *wrong);
 
 } // namespace dynascope

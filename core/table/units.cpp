@@ -130,8 +130,8 @@ QString meaning(const Field &field, std::int64_t raw)
     return field.bits.empty() ? QString() : bitsMeaning(field, raw);
 }
 
-QString valueText(const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw,
-                  AngleUnit angle)
+QString valueText(
+    const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw, AngleUnit angle)
 {
     const QString name = meaning(field, raw);
     if (!name.isEmpty())
@@ -147,12 +147,12 @@ Result<void> checkRange(const Field &field, const EffectiveField &effective, std
     return checkRange(field, effective, raw, 1, AngleUnit::Pulses);
 }
 
-Result<void> checkRange(const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution,
-                        AngleUnit angle)
+Result<void> checkRange(
+    const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution, AngleUnit angle)
 {
     if (!field.values.empty() && !named(field.values, raw)) {
-        return failure(ErrorKind::InvalidArgument, QStringLiteral("%1 can't be %2; it is one of %3")
-                                                       .arg(field.name).arg(raw).arg(listed(field.values)));
+        return failure(ErrorKind::InvalidArgument,
+            QStringLiteral("%1 can't be %2; it is one of %3").arg(field.name).arg(raw).arg(listed(field.values)));
     }
     const std::int64_t low = std::max(effective.minimum.value_or(smallestRaw(field)), smallestRaw(field));
     const std::int64_t high = std::min(effective.maximum.value_or(largestRaw(field)), largestRaw(field));
@@ -167,8 +167,8 @@ Result<void> checkRange(const Field &field, const EffectiveField &effective, std
         value += QStringLiteral(" (%1 %2)").arg(fixed(wanted), wanted.unit);
         range += QStringLiteral(" (%1 to %2 %3)").arg(fixed(from), fixed(to), to.unit);
     }
-    return failure(ErrorKind::InvalidArgument,
-                   QStringLiteral("%1 can't be %2; its range is %3").arg(field.name, value, range));
+    return failure(
+        ErrorKind::InvalidArgument, QStringLiteral("%1 can't be %2; its range is %3").arg(field.name, value, range));
 }
 
 } // namespace dynascope

@@ -33,11 +33,10 @@ QString unitText(const Field &field)
 QString line(const Field &field)
 {
     const QString area = field.area == Area::Eeprom ? QStringLiteral("EEPROM") : QStringLiteral("RAM");
-    const QStringList cells{
-        QString::number(field.address), QString::number(field.size), field.name, area,
+    const QStringList cells{QString::number(field.address), QString::number(field.size), field.name, area,
         field.isWritable() ? QStringLiteral("RW") : QStringLiteral("R"),
-        field.initial ? QString::number(*field.initial) : QString(), boundText(field.minimum),
-        boundText(field.maximum), unitText(field), field.unit == Unit::None ? QString() : QString::number(field.scale),
+        field.initial ? QString::number(*field.initial) : QString(), boundText(field.minimum), boundText(field.maximum),
+        unitText(field), field.unit == Unit::None ? QString() : QString::number(field.scale),
         QString::number(field.isSigned ? 1 : 0)};
     return cells.join(u',');
 }
@@ -119,8 +118,8 @@ private slots:
         QTest::addColumn<int>("driveModeBits");
         QTest::addColumn<int>("alternatesOfProfile");
         const QStringList none, drive{QStringLiteral("Drive Mode")};
-        const QStringList all{QStringLiteral("Drive Mode"), QStringLiteral("Startup Configuration"),
-                              QStringLiteral("Backup Ready")};
+        const QStringList all{
+            QStringLiteral("Drive Mode"), QStringLiteral("Startup Configuration"), QStringLiteral("Backup Ready")};
         for (const int model : {1020, 1060}) {
             QTest::addRow("%d oldest", model) << model << 0 << 0 << 37 << none << -1 << 0;
             QTest::addRow("%d unknown", model) << model << -1 << 0 << 37 << none << -1 << 0;
@@ -145,8 +144,8 @@ private slots:
         QVERIFY(table);
         QTEST(table->description().firmwareFrom, "from");
         QTEST(table->description().firmwareTo, "to");
-        const QStringList changing{QStringLiteral("Drive Mode"), QStringLiteral("Startup Configuration"),
-                                   QStringLiteral("Backup Ready")};
+        const QStringList changing{
+            QStringLiteral("Drive Mode"), QStringLiteral("Startup Configuration"), QStringLiteral("Backup Ready")};
         QTEST(names(changing, *table), "registers");
         const Field *drive = table->find(u"Drive Mode");
         QTEST(drive ? int(drive->maximum.number.value_or(-2)) : -1, "driveModeBits");

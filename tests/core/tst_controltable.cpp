@@ -56,7 +56,7 @@ private slots:
     {
         ControlTable::Description description;
         description.fields = {field(QStringLiteral("Model Number"), 0, 2), field(QStringLiteral("ID"), 7, 1),
-                              field(QStringLiteral("Goal Position"), 116, 4, true)};
+            field(QStringLiteral("Goal Position"), 116, 4, true)};
         description.baudCodes = {{0, 9600}, {1, 57600}};
         description.fastReadsFrom = 45;
         const ControlTable table(description);

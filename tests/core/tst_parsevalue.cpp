@@ -137,33 +137,44 @@ private slots:
         row("Goal Position", "-1deg",
             "Goal Position can't be -11 (-0.97 °); its range is 0 to 4095 (0.00 to 359.91 °)");
         row("Goal Position", "30rpm",
-            "\"rpm\" does not fit Goal Position; it takes deg, rad, turn, pulse, or a bare number for the register's own "
+            "\"rpm\" does not fit Goal Position; it takes deg, rad, turn, pulse, or a bare number for the register's "
+            "own "
             "value");
         row("Goal Position", "90.5", "Goal Position takes a whole number, or one with deg, rad, turn, pulse, not 90.5");
-        row("Goal Position", "nan", "\"nan\" is no value of Goal Position; it takes a number, one with deg, rad, turn, pulse");
-        row("Goal Position", "1e999deg", "\"1e999deg\" is no value of Goal Position; it takes a number, one with deg, rad, "
-                                         "turn, pulse");
-        row("Goal Velocity", "100rpm", "Goal Velocity can't be 437 (100.1 rev/min); its range is -200 to 200 (-45.8 to "
-                                       "45.8 rev/min)");
-        row("Goal Current", "200V", "\"V\" does not fit Goal Current; it takes mA, A, or a bare number for the register's "
-                                    "own value");
-        row("Operating Mode", "2", "Operating Mode can't be 2; it is one of 0 (Current control), 1 (Velocity control), 3 "
-                                   "(Position control), 4 (Extended position control), 5 (Current-based position control), "
-                                   "16 (PWM control)");
-        row("Operating Mode", "current", "\"current\" is no value of Operating Mode; it is one of Current control, Velocity "
-                                         "control, Position control, Extended position control, Current-based position "
-                                         "control, PWM control");
-        row("Operating Mode", "p", "\"p\" is no value of Operating Mode; it is one of Current control, Velocity control, "
-                                   "Position control, Extended position control, Current-based position control, PWM control");
+        row("Goal Position", "nan",
+            "\"nan\" is no value of Goal Position; it takes a number, one with deg, rad, turn, pulse");
+        row("Goal Position", "1e999deg",
+            "\"1e999deg\" is no value of Goal Position; it takes a number, one with deg, rad, "
+            "turn, pulse");
+        row("Goal Velocity", "100rpm",
+            "Goal Velocity can't be 437 (100.1 rev/min); its range is -200 to 200 (-45.8 to "
+            "45.8 rev/min)");
+        row("Goal Current", "200V",
+            "\"V\" does not fit Goal Current; it takes mA, A, or a bare number for the register's "
+            "own value");
+        row("Operating Mode", "2",
+            "Operating Mode can't be 2; it is one of 0 (Current control), 1 (Velocity control), 3 "
+            "(Position control), 4 (Extended position control), 5 (Current-based position control), "
+            "16 (PWM control)");
+        row("Operating Mode", "current",
+            "\"current\" is no value of Operating Mode; it is one of Current control, Velocity "
+            "control, Position control, Extended position control, Current-based position "
+            "control, PWM control");
+        row("Operating Mode", "p",
+            "\"p\" is no value of Operating Mode; it is one of Current control, Velocity control, "
+            "Position control, Extended position control, Current-based position control, PWM control");
         row("Torque Enable", "maybe", "\"maybe\" is no value of Torque Enable; it is one of Off, On");
         row("Torque Enable", "2", "Torque Enable can't be 2; it is one of 0 (Off), 1 (On)");
         row("Bus Watchdog", "-1", "Bus Watchdog can't be -1 (-20 ms); its range is 0 to 127 (0 to 2540 ms)");
-        row("Bus Watchdog", "soon", "\"soon\" is no value of Bus Watchdog; it takes a number, one with ms, s, us, or Off");
+        row("Bus Watchdog", "soon",
+            "\"soon\" is no value of Bus Watchdog; it takes a number, one with ms, s, us, or Off");
         row("Drive Mode", "16", "Drive Mode can't be 16; its range is 0 to 13");
-        row("Drive Mode", "backwards", "\"backwards\" is no bit of Drive Mode; it has Reverse direction, Time-based profile, "
-                                       "Torque on by goal, None, joined by + or ,");
-        row("Drive Mode", "reverse direction+", "\"\" is no bit of Drive Mode; it has Reverse direction, Time-based profile, "
-                                                "Torque on by goal, None, joined by + or ,");
+        row("Drive Mode", "backwards",
+            "\"backwards\" is no bit of Drive Mode; it has Reverse direction, Time-based profile, "
+            "Torque on by goal, None, joined by + or ,");
+        row("Drive Mode", "reverse direction+",
+            "\"\" is no bit of Drive Mode; it has Reverse direction, Time-based profile, "
+            "Torque on by goal, None, joined by + or ,");
         row("Shutdown", "256", "Shutdown can't be 256; its range is 0 to 255");
     }
 

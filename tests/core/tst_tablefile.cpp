@@ -29,7 +29,6 @@ QString sound()
     return QString::fromUtf8(contents(QStringLiteral(DYNASCOPE_SOURCE_DIR "/tests/data/tables/sound.json")));
 }
 
-
 Error errorOf(const QByteArray &json)
 {
     Catalog catalog;
@@ -83,13 +82,16 @@ private slots:
         row("\"series\": \"T\"", "\"ser\\u0069es\": \"T\"", "line 3: a key with an escape in it");
         row("\"series\": \"T\",", "\"series\": \"T\"", "line 4: not JSON (unterminated object)");
         row("\"series\": \"T\",", "", "T-1: \"series\" is missing");
-        row("\"resolution\": 4096", "\"resolution\": 0", "T-1: \"resolution\" must be a whole number from 1 to 100000000");
-        row("\"resolution\": 4096", "\"resolution\": 1.5", "T-1: \"resolution\" must be a whole number from 1 to 100000000");
+        row("\"resolution\": 4096", "\"resolution\": 0",
+            "T-1: \"resolution\" must be a whole number from 1 to 100000000");
+        row("\"resolution\": 4096", "\"resolution\": 1.5",
+            "T-1: \"resolution\" must be a whole number from 1 to 100000000");
         row("\"newestFirmware\": 5", "\"newestFirmware\": 256",
             "T-1: \"newestFirmware\" must be a whole number from 0 to 255");
         row("\"fastReadsSince\": 3", "\"fastReadsSince\": \"3\"",
             "T-1: \"fastReadsSince\" must be a whole number from 0 to 255");
-        row("\"1\": 57600", "\"one\": 57600", "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");
+        row("\"1\": 57600", "\"one\": 57600",
+            "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");
         row("\"1\": 57600", "\"1\": 0", "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");
         row("\"number\": 7", "\"number\": 70000", "T-1: \"number\" must be a whole number from 0 to 65535");
         row("\"number\": 7", "\"number\": 7, \"extends\": \"x\"", "T-1: unknown key \"extends\"");
@@ -101,7 +103,8 @@ private slots:
         row("\"models\": {", "\"models\": [], \"model\": {", "unknown key \"model\"");
         row("{ \"number\": 7, \"manual\": \"https://example.org/t-1\" }", "7", "\"T-1\" must be an object");
         // Merging
-        row("\"number\": 7", "\"number\": 7, \"registers\": { \"Gaol\": null }", "T-1: Gaol is removed, but isn't there");
+        row("\"number\": 7", "\"number\": 7, \"registers\": { \"Gaol\": null }",
+            "T-1: Gaol is removed, but isn't there");
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Old\": { \"since\": null } }",
             "T-1: Old: since is removed, but isn't there");
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Limit\": null }",
@@ -111,7 +114,8 @@ private slots:
         // Registers
         row("\"address\": 0,", "\"adress\": 0,", "Model Number: unknown key \"adress\"");
         row("\"address\": 0,", "", "T-1: Model Number: \"address\" must be a number from 0 to 65534");
-        row("\"address\": 0,", "\"address\": 65535,", "T-1: Model Number: \"address\" must be a number from 0 to 65534");
+        row("\"address\": 0,", "\"address\": 65535,",
+            "T-1: Model Number: \"address\" must be a number from 0 to 65534");
         row("\"address\": 0,", "\"address\": -1,", "T-1: Model Number: \"address\" must be a number from 0 to 65534");
         row("\"address\": 8,", "\"address\": 11,", "T-1: Mode: overlaps Baud Rate at address 11");
         row("\"address\": 20,", "\"address\": 62,", "T-1: Goal: overlaps Limit at address 64");
@@ -122,8 +126,10 @@ private slots:
         row("\"area\": \"EEPROM\", \"access\": \"R\"", "\"area\": \"ROM\", \"access\": \"R\"",
             "T-1: Model Number: \"area\" must be \"EEPROM\", \"RAM\" or \"HYBRID\"");
         row("\"access\": \"R\"", "\"access\": \"W\"", "T-1: Model Number: \"access\" must be \"R\" or \"RW\"");
-        row("\"model number\"", "\"serial number\"", "T-1: Model Number: \"initial\" must be a whole number or \"model number\"");
-        row("\"initial\": 100", "\"initial\": 1.5", "T-1: Limit: \"initial\" must be a whole number or \"model number\"");
+        row("\"model number\"", "\"serial number\"",
+            "T-1: Model Number: \"initial\" must be a whole number or \"model number\"");
+        row("\"initial\": 100", "\"initial\": 1.5",
+            "T-1: Limit: \"initial\" must be a whole number or \"model number\"");
         row("\"initial\": 100", "\"initial\": 4096", "T-1: Limit: initial value 4096 lies outside the range");
         row("\"initial\": 100", "\"initial\": -1", "T-1: Limit: initial value -1 doesn't fit unsigned 4 byte(s)");
         row("[0, 4095]", "[4095, 0]", "T-1: Limit: range 4095 to 0 is upside down");
@@ -180,7 +186,8 @@ private slots:
         row("\"count\": 2", "\"count\": 100000", "T-1: indirect: \"count\" must be a whole number from 1 to 512");
         row("\"dataAddress\": 94", "\"data\": 94", "indirect: unknown key \"data\"");
         row("\"range\": [64, 99], ", "", "T-1: indirect: needs \"range\", and definitions of the two registers");
-        row("\"range\": [64, 99], ", "\"range\": [64, 90], ", "T-1: Indirect Address 1: initial value 94 lies outside the range");
+        row("\"range\": [64, 99], ", "\"range\": [64, 90], ",
+            "T-1: Indirect Address 1: initial value 94 lies outside the range");
         row("\"indirect\": [ {", "\"indirect\": [ 5, {", "\"indirect\" must be a list of objects");
     }
 
@@ -204,11 +211,14 @@ private slots:
         QTest::newRow("nothing") << QByteArray() << QStringLiteral("line 1: not JSON (illegal value)");
         QTest::newRow("text") << QByteArray("\n\nhello") << QStringLiteral("line 3: not JSON (illegal value)");
         QTest::newRow("list") << QByteArray("[]") << QStringLiteral("not a JSON object");
-        QTest::newRow("open string") << QByteArray("{\n\"a") << QStringLiteral("line 2: not JSON (unterminated string)");
-        QTest::newRow("after the end") << QByteArray("{}\n{}") << QStringLiteral("line 2: not JSON (garbage at the end of "
-                                                                               "the document)");
+        QTest::newRow("open string") << QByteArray("{\n\"a")
+                                     << QStringLiteral("line 2: not JSON (unterminated string)");
+        QTest::newRow("after the end") << QByteArray("{}\n{}")
+                                       << QStringLiteral("line 2: not JSON (garbage at the end of "
+                                                         "the document)");
         QTest::newRow("zeros") << QByteArray(100, '\0') << QStringLiteral("line 1: not JSON (illegal value)");
-        QTest::newRow("not UTF-8") << QByteArray("{\"\xff\": 1}") << QStringLiteral("line 1: not JSON (invalid UTF8 string)");
+        QTest::newRow("not UTF-8") << QByteArray("{\"\xff\": 1}")
+                                   << QStringLiteral("line 1: not JSON (invalid UTF8 string)");
         QTest::newRow("deep") << QByteArray(200000, '[') << QStringLiteral("line 1: nested more than 12 deep");
         QTest::newRow("deep objects") << QByteArray("{\"a\":").repeated(100000)
                                       << QStringLiteral("line 1: nested more than 12 deep");
@@ -229,7 +239,7 @@ private slots:
         QVERIFY(catalog.add(sound().toUtf8(), QStringLiteral("t.json")));
         QString other = sound();
         other.replace(QStringLiteral("\"T-1\": {"),
-                      QStringLiteral("\"A-1\": { \"number\": 9, \"manual\": \"https://example.org\" }, \"T-1\": {"));
+            QStringLiteral("\"A-1\": { \"number\": 9, \"manual\": \"https://example.org\" }, \"T-1\": {"));
         QVERIFY(!catalog.add(other.toUtf8(), QStringLiteral("u.json")));
         QCOMPARE(catalog.models().size(), std::size_t(1));
         QVERIFY(!catalog.find(9, 5));

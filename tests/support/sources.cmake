@@ -1,5 +1,6 @@
 target_sources(dynascope_test_support PRIVATE
     support/oracle.cpp support/oracle.h
+    support/sessionfixture.h
     support/simclient.h
     support/testmain.cpp support/testmain.h
 )

@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QFontDatabase>
 #include <QFontMetricsF>
+#include <QSettings>
 #include <QToolTip>
 
 #include <array>
@@ -14,6 +15,8 @@
 namespace dynascope {
 
 namespace {
+
+const QString SchemeKey = QStringLiteral("window/scheme"); ///< 0 as the system, 1 light, 2 dark
 
 /// The colours one palette is made of.
 struct Tones {
@@ -155,6 +158,17 @@ void applyTheme(QApplication &application, ColorScheme scheme)
         application.setStyle(new FlatStyle); // the application owns it
     application.setPalette(chosen);
     QToolTip::setPalette(chosen);
+}
+
+ColorScheme savedColorScheme()
+{
+    const int saved = QSettings().value(SchemeKey).toInt();
+    return saved == 1 ? ColorScheme::Light : saved == 2 ? ColorScheme::Dark : ColorScheme::System;
+}
+
+void saveColorScheme(ColorScheme scheme)
+{
+    QSettings().setValue(SchemeKey, static_cast<int>(scheme));
 }
 
 const ThemeColors &colors(const QPalette &palette)

@@ -21,6 +21,9 @@ struct ThemeColors {
 /// Fusion with our own light or dark palette. The system's own choice is read once, at the first call.
 void applyTheme(QApplication &application, ColorScheme scheme);
 QPalette palette(ColorScheme scheme);
+/// What a person chose last; System where nobody did.
+ColorScheme savedColorScheme();
+void saveColorScheme(ColorScheme scheme);
 /// Those that go with a palette made here. Cheap: may be called while painting.
 const ThemeColors &colors(const QPalette &palette);
 

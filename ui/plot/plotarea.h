@@ -3,10 +3,18 @@
 
 #include "core/session/monitor.h"
 #include "ui/common/workbench.h"
+#include "ui/plot/plotstate.h"
+#include "ui/plot/timewindow.h"
 
+#include <QTimer>
 #include <QWidget>
 
+class QSplitter;
+
 namespace dynascope {
+
+class PlotBar;
+class PlotPanel;
 
 /// One or more plot panels under a common tool bar. Watches what it shows and stops watching what it no longer shows.
 class PlotArea : public QWidget
@@ -15,18 +23,60 @@ class PlotArea : public QWidget
 
 public:
     explicit PlotArea(const Workbench &workbench, QWidget *parent = nullptr);
+    PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< all that it needs
+    ~PlotArea() override;
 
     void addTrace(const Watch &watch); ///< to the present panel; nothing if it is shown already
     void removeTrace(const Watch &watch);
     bool shows(const Watch &watch) const;
     std::vector<Watch> traces() const;
 
+    PlotPanel *addPanel();
+    void closePanel(PlotPanel *panel); ///< with its traces; the last one stays
+    const std::vector<PlotPanel *> &panels() const { return m_panels; }
+    const TimeWindow &timeWindow() const { return m_window; }
+    void setLive(bool live);
+    void setAutoscale(bool on);
+
     QByteArray saveState() const;
+    /// Traces of devices that aren't there yet come back when these are found.
     void restoreState(const QByteArray &state);
 
 signals:
     void tracesChanged();
     void message(const QString &text);
+
+protected:
+    void showEvent(QShowEvent *event) override;
+    void hideEvent(QHideEvent *event) override;
+
+private:
+    void connectBar();
+    void connectChart(PlotPanel *panel);
+    void addTo(PlotPanel *panel, const Watch &watch);
+    void removeFrom(PlotPanel *panel, const std::vector<Watch> &watches);
+    void onTracesChanged();
+    void onFrame();
+    void showNewest();
+    void refreshAll();
+    void clear();
+    void fit();
+    void saveCsvFile();
+    void savePictureFile();
+    void restoreTraces(Device *device);
+    void askForFile(const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save);
+
+    Session &m_session;
+    Monitor &m_monitor;
+    TimeWindow m_window;
+    PlotBar *m_bar;
+    QSplitter *m_splitter;
+    std::vector<PlotPanel *> m_panels; ///< the splitter's
+    PlotPanel *m_present = nullptr;    ///< where new traces go
+    QTimer m_frames;
+    QTimer m_values;                   ///< for the numbers in the lists: no faster than can be read
+    std::uint64_t m_samplesSeen = 0;
+    std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };
 
 } // namespace dynascope

@@ -1,2 +1,20 @@
 target_sources(dynascope_ui PRIVATE
+    plot/axisscaler.cpp plot/axisscaler.h
+    plot/chartframe.cpp plot/chartframe.h
+    plot/columncache.cpp plot/columncache.h
+    plot/columnraster.cpp plot/columnraster.h
+    plot/plotarea.cpp plot/plotarea.h
+    plot/plotbar.cpp plot/plotbar.h
+    plot/plotchart.cpp plot/plotchart.h
+    plot/plotexport.cpp plot/plotexport.h
+    plot/plotpanel.cpp plot/plotpanel.h
+    plot/plotreadout.cpp plot/plotreadout.h
+    plot/plotscales.cpp plot/plotscales.h
+    plot/plotstate.cpp plot/plotstate.h
+    plot/timewindow.cpp plot/timewindow.h
+    plot/tracedata.h
+    plot/tracedelegate.cpp plot/tracedelegate.h
+    plot/traceimage.cpp plot/traceimage.h
+    plot/tracelist.cpp plot/tracelist.h
+    plot/tracemodel.cpp plot/tracemodel.h
 )

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/window/pictures.h"
+
+#include "app/window/workshop.h"
+#include "ui/devices/devicepanel.h"
+#include "ui/plot/plotarea.h"
+
+#include <QApplication>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QSettings>
+#include <QTimer>
+
+#include <chrono>
+#include <cstdio>
+#include <deque>
+
+namespace dynascope {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr int SimulatedBaud = 1000000;
+constexpr std::size_t DemoServos = 7;     ///< six of the arm, one fresh
+constexpr qint64 LongestScan = 15000;     ///< ms; then the picture is taken of what there is
+constexpr auto PlotTime = 8s;             ///< of movement on the plots
+
+/// Brings the window into the state that the pictures show, then takes one step after the other.
+class PictureTaker : public QObject
+{
+public:
+    PictureTaker(Workshop &workshop, const WindowOptions &options)
+        : m_workshop(workshop)
+    {
+        if (options.pictureDirectory.isEmpty())
+            planOne(options.picture);
+        else
+            planAll(QDir(options.pictureDirectory));
+        connect(&m_timer, &QTimer::timeout, this, &PictureTaker::waitForDevices);
+        m_elapsed.start();
+        m_timer.start(100ms);
+    }
+
+private:
+    using Step = std::function<void()>;
+
+    void waitForDevices()
+    {
+        const bool allThere = m_workshop.session().devices().size() >= DemoServos && !m_workshop.scanner().isRunning();
+        if (!allThere && m_elapsed.elapsed() < LongestScan)
+            return;
+        m_timer.stop();
+        showSomething();
+        QTimer::singleShot(PlotTime, this, &PictureTaker::next);
+    }
+
+    /// Selects a joint and plots it beside another, as a person would.
+    void showSomething()
+    {
+        const std::vector<Device *> devices = m_workshop.session().devices();
+        auto *panel = m_workshop.window().findChild<DevicePanel *>();
+        auto *plots = m_workshop.window().findChild<PlotArea *>();
+        int joints = 0;
+        for (Device *device : devices) {
+            if (device->state() != Device::State::Present || joints == 3)
+                continue;
+            if (joints++ == 0 && panel)
+                panel->selectDevice(device);
+            const int position = device->table().indexOf(u"Present Position");
+            if (plots && position >= 0)
+                plots->addTrace({device->key(), position});
+            const int current = device->table().indexOf(u"Present Current");
+            if (plots && current >= 0 && joints == 1)
+                plots->addTrace({device->key(), current});
+        }
+    }
+
+    void planOne(const QString &file)
+    {
+        m_steps.push_back([this, file] { save(file); });
+    }
+
+    void planAll(const QDir &directory)
+    {
+        const QString scale = qApp->devicePixelRatio() > 1 ? QStringLiteral("@2x") : QString();
+        const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const char *name) {
+            m_steps.push_back([this, scheme, size] {
+                m_workshop.applyScheme(scheme);
+                m_workshop.window().resize(size);
+            });
+            m_steps.push_back([this, file = directory.filePath(QString::fromLatin1(name) + scale
+                                                               + QStringLiteral(".png"))] { save(file); });
+        };
+        const QSize large(1440, 900);
+        const QSize small(960, 640);
+        shot(ColorScheme::Light, large, "window-light");
+        shot(ColorScheme::Dark, large, "window-dark");
+        shot(ColorScheme::Light, small, "window-small-light");
+        shot(ColorScheme::Dark, small, "window-small-dark");
+    }
+
+    void save(const QString &file)
+    {
+        if (m_workshop.window().grab().save(file, "PNG"))
+            std::printf("%s\n", qPrintable(file));
+        else
+            std::fprintf(stderr, "dynascope: %s could not be written\n", qPrintable(file));
+    }
+
+    void next()
+    {
+        if (m_steps.empty()) {
+            QCoreApplication::quit();
+            return;
+        }
+        const Step step = std::move(m_steps.front());
+        m_steps.pop_front();
+        step();
+        QTimer::singleShot(700ms, this, &PictureTaker::next); // the next frames come in the new look
+    }
+
+    Workshop &m_workshop;
+    QTimer m_timer;
+    QElapsedTimer m_elapsed;
+    std::deque<Step> m_steps;
+};
+
+} // namespace
+
+int runWindow(QApplication &application, Workshop &workshop, const WindowOptions &options)
+{
+    const bool picture = !options.picture.isEmpty() || !options.pictureDirectory.isEmpty();
+    QString port = options.port;
+    int baud = options.baudRate;
+    if (picture)
+        port = SimulatedPortName;
+    const QSettings settings;
+    if (port.isEmpty()) {
+        port = settings.value(QStringLiteral("connection/port")).toString();
+        if (baud == 0)
+            baud = settings.value(QStringLiteral("connection/baud")).toInt();
+    }
+    if (baud == 0)
+        baud = port == SimulatedPortName ? SimulatedBaud : 57600;
+
+    workshop.window().show();
+    if (picture)
+        workshop.window().resize(1440, 900);
+    if (!port.isEmpty())
+        workshop.window().connectTo(port, baud);
+    std::unique_ptr<PictureTaker> taker;
+    if (picture)
+        taker = std::make_unique<PictureTaker>(workshop, options);
+    return application.exec();
+}
+
+} // namespace dynascope

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/plotarea.h"
+
+#include "ui/plot/plotbar.h"
+#include "ui/plot/plotchart.h"
+#include "ui/plot/plotexport.h"
+#include "ui/plot/plotpanel.h"
+#include "ui/plot/tracemodel.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QSplitter>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace dynascope {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto FrameInterval = 16ms;
+constexpr auto ValueInterval = 100ms;
+
+} // namespace
+
+PlotArea::PlotArea(const Workbench &workbench, QWidget *parent)
+    : PlotArea(workbench.session, workbench.monitor, parent)
+{
+}
+
+PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
+    : QWidget(parent)
+    , m_session(session)
+    , m_monitor(monitor)
+    , m_bar(new PlotBar(this))
+    , m_splitter(new QSplitter(Qt::Vertical, this))
+{
+    auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(m_bar);
+    layout->addWidget(m_splitter, 1);
+    m_splitter->setChildrenCollapsible(false);
+    m_frames.setInterval(FrameInterval);
+    m_frames.setTimerType(Qt::PreciseTimer);
+    m_values.setInterval(ValueInterval);
+    connect(&m_frames, &QTimer::timeout, this, &PlotArea::onFrame);
+    connect(&m_values, &QTimer::timeout, this, [this] {
+        for (PlotPanel *panel : m_panels)
+            panel->model().refreshValues();
+    });
+    // A device that goes takes its histories along: the charts must let go of them at once.
+    connect(&monitor, &Monitor::watchesChanged, this, &PlotArea::refreshAll);
+    connect(&session, &Session::deviceAdded, this, &PlotArea::restoreTraces);
+    connectBar();
+    addPanel();
+}
+
+PlotArea::~PlotArea() = default;
+
+void PlotArea::connectBar()
+{
+    connect(m_bar, &PlotBar::liveChanged, this, &PlotArea::setLive);
+    connect(m_bar, &PlotBar::autoscaleChanged, this, &PlotArea::setAutoscale);
+    connect(m_bar, &PlotBar::spanChanged, this, [this](int seconds) {
+        m_window.setSpan(std::chrono::seconds(seconds));
+        showNewest();
+    });
+    connect(m_bar, &PlotBar::clearRequested, this, &PlotArea::clear);
+    connect(m_bar, &PlotBar::csvRequested, this, &PlotArea::saveCsvFile);
+    connect(m_bar, &PlotBar::pictureRequested, this, &PlotArea::savePictureFile);
+    connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
+}
+
+PlotPanel *PlotArea::addPanel()
+{
+    auto *panel = new PlotPanel(m_session, m_monitor, m_window, m_splitter);
+    m_splitter->addWidget(panel);
+    m_panels.push_back(panel);
+    m_present = panel;
+    panel->chart().setAutoscale(m_panels.front()->chart().isAutoscale());
+    connect(panel, &PlotPanel::activated, this, [this, panel] { m_present = panel; });
+    connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
+    connect(panel, &PlotPanel::removeRequested, this,
+            [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
+    connect(panel, &PlotPanel::watchesDropped, this, [this, panel](const std::vector<Watch> &watches) {
+        for (const Watch &watch : watches)
+            addTo(panel, watch);
+    });
+    connectChart(panel);
+    for (PlotPanel *each : m_panels)
+        each->setClosable(m_panels.size() > 1);
+    showNewest();
+    return panel;
+}
+
+void PlotArea::connectChart(PlotPanel *panel)
+{
+    PlotChart *chart = &panel->chart();
+    connect(chart, &PlotChart::spanStepped, m_bar, &PlotBar::stepSpan);
+    connect(chart, &PlotChart::zoomed, this, [this](double factor, LineTime around) {
+        m_window.zoom(factor, around);
+        showNewest();
+    });
+    connect(chart, &PlotChart::panned, this, [this](LineTime by) {
+        m_window.pan(by);
+        showNewest();
+    });
+    connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::setAutoscale);
+    connect(chart, &PlotChart::fitRequested, this, &PlotArea::fit);
+}
+
+void PlotArea::closePanel(PlotPanel *panel)
+{
+    if (m_panels.size() < 2)
+        return;
+    removeFrom(panel, panel->model().watches());
+    std::erase(m_panels, panel);
+    if (m_present == panel)
+        m_present = m_panels.back();
+    panel->hide();
+    panel->deleteLater(); // it may be its own button that asked
+    for (PlotPanel *each : m_panels)
+        each->setClosable(m_panels.size() > 1);
+}
+
+void PlotArea::addTrace(const Watch &watch)
+{
+    if (!shows(watch))
+        addTo(m_present, watch);
+}
+
+void PlotArea::addTo(PlotPanel *panel, const Watch &watch)
+{
+    if (!panel->model().add(watch))
+        return;
+    m_monitor.watch(watch);
+    onTracesChanged();
+}
+
+void PlotArea::removeTrace(const Watch &watch)
+{
+    for (PlotPanel *panel : m_panels)
+        removeFrom(panel, {watch});
+}
+
+void PlotArea::removeFrom(PlotPanel *panel, const std::vector<Watch> &watches)
+{
+    bool isAnyRemoved = false;
+    for (const Watch &watch : watches) {
+        const int row = panel->model().indexOf(watch);
+        if (row < 0)
+            continue;
+        panel->model().remove(row);
+        isAnyRemoved = true;
+        if (!shows(watch))
+            m_monitor.unwatch(watch);
+    }
+    if (isAnyRemoved)
+        onTracesChanged();
+}
+
+void PlotArea::onTracesChanged()
+{
+    m_bar->setHasTraces(!traces().empty());
+    if (traces().empty())
+        setLive(true);
+    showNewest();
+    emit tracesChanged();
+}
+
+bool PlotArea::shows(const Watch &watch) const
+{
+    return std::ranges::any_of(m_panels, [&watch](const PlotPanel *panel) { return panel->model().indexOf(watch) >= 0; });
+}
+
+std::vector<Watch> PlotArea::traces() const
+{
+    std::set<Watch> all;
+    for (const PlotPanel *panel : m_panels) {
+        const std::vector<Watch> watches = panel->model().watches();
+        all.insert(watches.begin(), watches.end());
+    }
+    return {all.begin(), all.end()};
+}
+
+void PlotArea::showEvent(QShowEvent *event)
+{
+    QWidget::showEvent(event);
+    m_frames.start();
+    m_values.start();
+    refreshAll();
+}
+
+void PlotArea::hideEvent(QHideEvent *event)
+{
+    QWidget::hideEvent(event);
+    m_frames.stop();
+    m_values.stop();
+}
+
+/// Paints only where something new has come; what is paused stands still anyway.
+void PlotArea::onFrame()
+{
+    if (!m_window.isLive())
+        return;
+    std::uint64_t samples = 0;
+    for (const PlotPanel *panel : m_panels)
+        samples += panel->samplesSeen();
+    if (samples == m_samplesSeen)
+        return;
+    m_samplesSeen = samples;
+    refreshAll();
+}
+
+void PlotArea::refreshAll()
+{
+    for (PlotPanel *panel : m_panels)
+        panel->refreshTraces();
+    showNewest();
+}
+
+/// All panels end at the same moment, so that what stands above each other happened together.
+void PlotArea::showNewest()
+{
+    LineTime newest{};
+    for (const PlotPanel *panel : m_panels)
+        newest = std::max(newest, panel->newest());
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setNewest(newest);
+}
+
+void PlotArea::setLive(bool live)
+{
+    if (live) {
+        m_window.setLive();
+    } else {
+        LineTime newest{};
+        for (const PlotPanel *panel : m_panels)
+            newest = std::max(newest, panel->newest());
+        m_window.pause(newest);
+    }
+    m_bar->setLive(live);
+    refreshAll();
+}
+
+void PlotArea::setAutoscale(bool on)
+{
+    m_bar->setAutoscale(on);
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setAutoscale(on);
+}
+
+void PlotArea::fit()
+{
+    setLive(true);
+    setAutoscale(true);
+}
+
+void PlotArea::clear()
+{
+    m_monitor.clear();
+    m_samplesSeen = 0;
+    setLive(true);
+    for (PlotPanel *panel : m_panels)
+        panel->model().refreshValues();
+}
+
+void PlotArea::askForFile(const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save)
+{
+    auto *dialog = new QFileDialog(this, title);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setAcceptMode(QFileDialog::AcceptSave);
+    dialog->setDefaultSuffix(suffix);
+    dialog->setNameFilter(tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix));
+    dialog->selectFile(suggestedFileName(suffix));
+    connect(dialog, &QFileDialog::fileSelected, this, [this, save = std::move(save)](const QString &path) {
+        const Result<void> result = save(path);
+        emit message(result ? tr("Saved %1").arg(QDir::toNativeSeparators(path)) : result.error().text);
+    });
+    dialog->open();
+}
+
+void PlotArea::saveCsvFile()
+{
+    // The view as it is now: a live one moves on while the person chooses a name.
+    const TimeView view = m_present->chart().view();
+    askForFile(tr("Save the samples in sight"), QStringLiteral("csv"), [this, view](const QString &path) {
+        std::vector<TraceData> all;
+        for (const PlotPanel *panel : m_panels) {
+            const std::vector<TraceData> drawn = panel->model().drawn(palette());
+            all.insert(all.end(), drawn.begin(), drawn.end());
+        }
+        return saveCsv(path, all, view.from(), view.to());
+    });
+}
+
+void PlotArea::savePictureFile()
+{
+    askForFile(tr("Save the plots as a picture"), QStringLiteral("png"),
+               [picture = m_splitter->grab()](const QString &path) { return savePicture(path, picture); });
+}
+
+QByteArray PlotArea::saveState() const
+{
+    PlotState state;
+    state.spanSeconds = m_bar->span();
+    state.autoscale = m_panels.front()->chart().isAutoscale();
+    for (std::size_t i = 0; i < m_panels.size(); ++i) {
+        const TraceModel &model = m_panels[i]->model();
+        std::vector<PlotState::Trace> traces;
+        for (int row = 0; row < model.rowCount(); ++row) {
+            const Device *device = m_session.device(model.watch(row).device);
+            if (!device || !device->line())
+                continue;
+            const Field &field = device->table().fields()[static_cast<std::size_t>(model.watch(row).field)];
+            traces.push_back({device->line()->name(), device->table().modelNumber(), device->id(), field.name,
+                              model.colorIndex(row), model.isVisible(row)});
+        }
+        if (i < m_waiting.size())
+            traces.insert(traces.end(), m_waiting[i].begin(), m_waiting[i].end());
+        state.panels.push_back(std::move(traces));
+    }
+    return state.toBytes();
+}
+
+void PlotArea::restoreState(const QByteArray &bytes)
+{
+    const std::optional<PlotState> state = PlotState::fromBytes(bytes);
+    if (!state)
+        return;
+    m_bar->setSpan(state->spanSeconds);
+    setAutoscale(state->autoscale);
+    while (m_panels.size() < state->panels.size())
+        addPanel();
+    m_present = m_panels.front();
+    m_waiting = state->panels;
+    for (Device *device : m_session.devices())
+        restoreTraces(device);
+}
+
+void PlotArea::restoreTraces(Device *device)
+{
+    for (std::size_t i = 0; i < std::min(m_waiting.size(), m_panels.size()); ++i) {
+        std::erase_if(m_waiting[i], [this, i, device](const PlotState::Trace &trace) {
+            if (!trace.fits(*device))
+                return false;
+            const Watch watch{device->key(), device->table().indexOf(trace.field)};
+            addTo(m_panels[i], watch);
+            TraceModel &model = m_panels[i]->model();
+            const int row = model.indexOf(watch);
+            if (row >= 0) {
+                model.setColorIndex(row, trace.color);
+                model.setVisible(row, trace.visible);
+            }
+            return true;
+        });
+    }
+}
+
+} // namespace dynascope

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/plotbar.h"
+
+#include "ui/common/icons.h"
+#include "ui/plot/timewindow.h"
+
+#include <QLabel>
+#include <QSignalBlocker>
+
+#include <algorithm>
+#include <array>
+
+namespace dynascope {
+
+namespace {
+
+constexpr std::array RoundSpans{1, 2, 5, 10, 20, 30, 60, 120, 300, 600};
+
+int inSeconds(LineTime time)
+{
+    return static_cast<int>(std::chrono::duration_cast<std::chrono::seconds>(time).count());
+}
+
+} // namespace
+
+SpanBox::SpanBox(QWidget *parent)
+    : QSpinBox(parent)
+{
+    setRange(inSeconds(TimeWindow::ShortestSpan), inSeconds(TimeWindow::LongestSpan));
+    setSuffix(tr(" s"));
+    setValue(10);
+    setKeyboardTracking(false);
+    setAlignment(Qt::AlignRight);
+    setToolTip(tr("How much time the plots show, 1 to 600 seconds (also the wheel over a plot)"));
+    setAccessibleName(tr("Time span"));
+}
+
+void SpanBox::stepBy(int steps)
+{
+    for (; steps > 0; --steps) {
+        const auto *next = std::ranges::upper_bound(RoundSpans, value());
+        setValue(next == RoundSpans.end() ? maximum() : *next);
+    }
+    for (; steps < 0; ++steps) {
+        const auto *next = std::ranges::lower_bound(RoundSpans, value());
+        setValue(next == RoundSpans.begin() ? minimum() : *(next - 1));
+    }
+}
+
+PlotBar::PlotBar(QWidget *parent)
+    : QToolBar(parent)
+    , m_span(new SpanBox(this))
+{
+    setIconSize({16, 16});
+    setMovable(false);
+    m_pause = add(QStringLiteral("pause"), tr("Pause"), tr("Hold the plots still; drag and wheel then move and zoom them"));
+    m_pause->setCheckable(true);
+    connect(m_pause, &QAction::toggled, this, [this](bool paused) {
+        showLive(!paused);
+        emit liveChanged(!paused);
+    });
+    addWidget(m_span);
+    connect(m_span, &QSpinBox::valueChanged, this, &PlotBar::spanChanged);
+    m_autoscale = add(QStringLiteral("fit"), tr("Autoscale"), tr("Let the value axes follow what is seen (Ctrl+wheel zooms by hand)"));
+    m_autoscale->setCheckable(true);
+    m_autoscale->setChecked(true);
+    connect(m_autoscale, &QAction::toggled, this, &PlotBar::autoscaleChanged);
+    addSeparator();
+    QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
+    connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
+    QAction *csv = add(QStringLiteral("csv"), tr("Save as CSV..."), tr("Save the samples in sight as a CSV file"));
+    connect(csv, &QAction::triggered, this, &PlotBar::csvRequested);
+    QAction *picture = add(QStringLiteral("camera"), tr("Save as picture..."), tr("Save the plots as a PNG picture"));
+    connect(picture, &QAction::triggered, this, &PlotBar::pictureRequested);
+    addSeparator();
+    QAction *panel = add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
+    connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
+    m_needTraces = {m_pause, clear, csv, picture};
+    setHasTraces(false);
+}
+
+QAction *PlotBar::add(const QString &iconName, const QString &text, const QString &tip)
+{
+    QAction *action = addAction(icon(iconName), text);
+    action->setToolTip(tip);
+    return action;
+}
+
+void PlotBar::showLive(bool live)
+{
+    m_pause->setIcon(icon(live ? QStringLiteral("pause") : QStringLiteral("play")));
+    m_pause->setText(live ? tr("Pause") : tr("Live"));
+    m_pause->setToolTip(live ? tr("Hold the plots still; drag and wheel then move and zoom them") : tr("Follow the newest values again"));
+}
+
+void PlotBar::setLive(bool live)
+{
+    const QSignalBlocker blocker(m_pause);
+    m_pause->setChecked(!live);
+    showLive(live);
+}
+
+void PlotBar::setAutoscale(bool on)
+{
+    const QSignalBlocker blocker(m_autoscale);
+    m_autoscale->setChecked(on);
+}
+
+void PlotBar::setSpan(int seconds)
+{
+    m_span->setValue(seconds);
+}
+
+void PlotBar::setHasTraces(bool has)
+{
+    for (QAction *action : m_needTraces)
+        action->setEnabled(has);
+}
+
+} // namespace dynascope

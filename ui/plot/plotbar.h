@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QSpinBox>
+#include <QToolBar>
+
+namespace dynascope {
+
+/// Whole seconds; the arrows go to the next round number.
+class SpanBox : public QSpinBox
+{
+    Q_OBJECT
+
+public:
+    explicit SpanBox(QWidget *parent = nullptr);
+
+    void stepBy(int steps) override;
+};
+
+/// The tool bar above the plots. Announces what the person wants; shows what it is told.
+class PlotBar : public QToolBar
+{
+    Q_OBJECT
+
+public:
+    explicit PlotBar(QWidget *parent = nullptr);
+
+    void setLive(bool live);
+    void setAutoscale(bool on);
+    int span() const { return m_span->value(); }
+    void setSpan(int seconds);
+    void stepSpan(int steps) { m_span->stepBy(steps); }
+    void setHasTraces(bool has);
+
+signals:
+    void liveChanged(bool live);
+    void spanChanged(int seconds);
+    void autoscaleChanged(bool on);
+    void clearRequested();
+    void csvRequested();
+    void pictureRequested();
+    void panelRequested();
+
+private:
+    QAction *add(const QString &iconName, const QString &text, const QString &tip);
+    void showLive(bool live);
+
+    SpanBox *m_span;
+    QAction *m_pause;
+    QAction *m_autoscale;
+    QList<QAction *> m_needTraces;
+};
+
+} // namespace dynascope

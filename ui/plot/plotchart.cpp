@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/plotchart.h"
+
+#include "ui/common/theme.h"
+#include "ui/plot/plotreadout.h"
+
+#include <QKeyEvent>
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynascope {
+
+namespace {
+
+constexpr int StepHeight = 44; ///< pixels between value labels, at least
+constexpr int WheelStep = 120;
+constexpr double WheelZoom = 1.25;
+
+double seconds(LineTime time)
+{
+    return std::chrono::duration<double>(time).count();
+}
+
+} // namespace
+
+PlotChart::PlotChart(const TimeWindow &window, QWidget *parent)
+    : QWidget(parent)
+    , m_window(window)
+{
+    setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
+    setAttribute(Qt::WA_OpaquePaintEvent);
+}
+
+PlotChart::~PlotChart() = default;
+
+void PlotChart::setTraces(std::vector<TraceData> traces)
+{
+    m_traces = std::move(traces);
+    m_scales.setTraces(m_traces);
+    update();
+}
+
+void PlotChart::setEmphasized(int trace)
+{
+    if (trace == m_emphasized)
+        return;
+    m_emphasized = trace;
+    update();
+}
+
+void PlotChart::setNewest(LineTime newest)
+{
+    m_newest = newest;
+    update();
+}
+
+void PlotChart::setAutoscale(bool on)
+{
+    if (on == m_autoscale)
+        return;
+    m_autoscale = on;
+    if (on)
+        m_scales.refit();
+    update();
+}
+
+void PlotChart::setEmptyText(const QString &text)
+{
+    m_emptyText = text;
+    update();
+}
+
+void PlotChart::setMarked(bool marked)
+{
+    m_marked = marked;
+    update();
+}
+
+QRectF PlotChart::plotArea() const
+{
+    ChartFrame::Content content;
+    content.size = size();
+    content.pixelRatio = devicePixelRatioF();
+    content.font = font();
+    for (std::size_t i = 0; i < content.values.size(); ++i)
+        content.values[i].isUsed = m_scales.labelled(static_cast<int>(i)) != nullptr;
+    return ChartFrame::plotArea(content);
+}
+
+TimeView PlotChart::view() const
+{
+    return m_window.view(static_cast<int>(std::lround(plotArea().width() * devicePixelRatioF())), m_newest);
+}
+
+ChartFrame::Content PlotChart::frameContent(const TimeView &view) const
+{
+    ChartFrame::Content content;
+    content.size = size();
+    content.pixelRatio = devicePixelRatioF();
+    content.font = font();
+    content.palette = palette();
+    content.fromSeconds = seconds(view.from() - view.zero);
+    content.toSeconds = seconds(view.to() - view.zero);
+    for (std::size_t i = 0; i < content.values.size(); ++i) {
+        if (const PlotScales::Scale *scale = m_scales.labelled(static_cast<int>(i)))
+            content.values[i] = {scale->unit, scale->scaler.range(), true};
+    }
+    return content;
+}
+
+void PlotChart::paintTraces(QPainter &painter, const TimeView &view, const QRectF &area)
+{
+    const auto ratio = static_cast<float>(devicePixelRatioF());
+    std::vector<TraceImage::Item> items;
+    items.reserve(m_traces.size());
+    for (const TraceData &trace : m_traces)
+        items.push_back({&trace, &m_scales.range(trace.unit), 1.5F * ratio});
+    if (m_emphasized >= 0 && m_emphasized < static_cast<int>(items.size())) {
+        items[static_cast<std::size_t>(m_emphasized)].thickness = 2.5F * ratio;
+        items[static_cast<std::size_t>(m_emphasized)].isOnTop = true;
+    }
+    const int height = static_cast<int>(std::lround(area.height() * devicePixelRatioF()));
+    painter.drawImage(area, m_image.paint(items, view, height));
+}
+
+void PlotChart::paintEvent(QPaintEvent *)
+{
+    const QRectF area = plotArea();
+    const TimeView now = view();
+    m_scales.setMostSteps(std::max(2, static_cast<int>(area.height() / StepHeight)));
+    if (m_autoscale)
+        m_scales.fit(m_traces, now, m_newest);
+    QPainter painter(this);
+    painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
+    if (m_traces.empty()) {
+        painter.setPen(colors(palette()).dimmed);
+        painter.drawText(area.adjusted(24, 8, -24, -8), Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+    } else {
+        paintTraces(painter, now, area);
+    }
+    if (m_cursor && !m_dragFrom && area.contains(*m_cursor))
+        PlotReadout{m_traces, m_scales, now, area, m_cursor->x(), palette()}.paint(painter);
+    if (m_marked || hasFocus()) {
+        painter.setPen(QPen(colors(palette()).accent, m_marked ? 2 : 1));
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(area);
+    }
+}
+
+void PlotChart::mouseMoveEvent(QMouseEvent *event)
+{
+    m_cursor = event->position();
+    if (m_dragFrom && !m_window.isLive()) {
+        const TimeView now = view();
+        const double columns = (m_dragFrom->x() - event->position().x()) / plotArea().width() * now.columns;
+        emit panned(LineTime(std::llround(columns * static_cast<double>(now.step.count()))));
+        const double up = (event->position().y() - m_dragFrom->y()) / plotArea().height();
+        if (!m_autoscale) {
+            for (PlotScales::Scale &scale : m_scales.scales())
+                scale.scaler.move(up * scale.scaler.range().span());
+        }
+        m_dragFrom = event->position();
+    }
+    update();
+}
+
+void PlotChart::mousePressEvent(QMouseEvent *event)
+{
+    if (event->button() != Qt::LeftButton) {
+        QWidget::mousePressEvent(event);
+        return;
+    }
+    if (m_window.isLive())
+        return;
+    m_dragFrom = event->position();
+    setCursor(Qt::ClosedHandCursor);
+}
+
+void PlotChart::mouseReleaseEvent(QMouseEvent *event)
+{
+    if (event->button() != Qt::LeftButton)
+        return;
+    m_dragFrom.reset();
+    unsetCursor();
+    update();
+}
+
+void PlotChart::mouseDoubleClickEvent(QMouseEvent *)
+{
+    emit fitRequested();
+}
+
+void PlotChart::zoomValues(double factor, qreal y)
+{
+    const QRectF area = plotArea();
+    if (m_autoscale) {
+        m_autoscale = false;
+        emit autoscaleChanged(false);
+    }
+    for (PlotScales::Scale &scale : m_scales.scales()) {
+        const AxisRange &range = scale.scaler.range();
+        scale.scaler.zoom(factor, range.minimum + (area.bottom() - y) / area.height() * range.span());
+    }
+    update();
+}
+
+void PlotChart::zoomTime(double factor, qreal x)
+{
+    if (m_window.isLive()) {
+        emit spanStepped(factor > 1 ? 1 : -1);
+        return;
+    }
+    const TimeView now = view();
+    const QRectF area = plotArea();
+    emit zoomed(factor, now.timeAt((x - area.left()) / area.width() * now.columns));
+}
+
+void PlotChart::wheelEvent(QWheelEvent *event)
+{
+    event->accept();
+    m_wheelRest += event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x();
+    const int steps = m_wheelRest / WheelStep;
+    m_wheelRest -= steps * WheelStep;
+    if (steps == 0)
+        return;
+    const double factor = std::pow(WheelZoom, -steps);
+    if (event->modifiers().testFlag(Qt::ControlModifier))
+        zoomValues(factor, event->position().y());
+    else
+        zoomTime(factor, event->position().x());
+}
+
+void PlotChart::keyPressEvent(QKeyEvent *event)
+{
+    const QPointF centre = plotArea().center();
+    const bool values = event->modifiers().testFlag(Qt::ControlModifier);
+    const LineTime tenth = (view().to() - view().from()) / 10;
+    switch (event->key()) {
+    case Qt::Key_Left: emit panned(-tenth); return;
+    case Qt::Key_Right: emit panned(tenth); return;
+    case Qt::Key_Plus:
+    case Qt::Key_Equal:
+        values ? zoomValues(1 / WheelZoom, centre.y()) : zoomTime(1 / WheelZoom, centre.x());
+        return;
+    case Qt::Key_Minus:
+        values ? zoomValues(WheelZoom, centre.y()) : zoomTime(WheelZoom, centre.x());
+        return;
+    case Qt::Key_Home: emit fitRequested(); return;
+    default: QWidget::keyPressEvent(event);
+    }
+}
+
+void PlotChart::leaveEvent(QEvent *)
+{
+    m_cursor.reset();
+    update();
+}
+
+void PlotChart::changeEvent(QEvent *event)
+{
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
+        update();
+    QWidget::changeEvent(event);
+}
+
+} // namespace dynascope

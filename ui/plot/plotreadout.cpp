@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/plotreadout.h"
+
+#include "ui/common/theme.h"
+
+#include <QCoreApplication>
+#include <QPainter>
+
+#include <algorithm>
+
+namespace dynascope {
+
+namespace {
+
+constexpr int MostRows = 12;
+constexpr qreal Padding = 8;
+constexpr qreal Swatch = 10;
+
+struct Row {
+    const TraceData *trace;
+    double value;
+};
+
+QString timeText(const TimeView &view, LineTime at)
+{
+    const double seconds = std::chrono::duration<double>(at - view.zero).count();
+    return QCoreApplication::translate("PlotReadout", "%1 s").arg(seconds, 0, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2);
+}
+
+} // namespace
+
+const History::Sample *PlotReadout::sampleAt(const History &history, LineTime at, History::Sample &storage)
+{
+    const std::size_t after = history.indexAt(at + LineTime(1));
+    if (after == 0 || (after < history.size() && history.gapBefore(after)))
+        return nullptr;
+    storage = history.at(after - 1);
+    return &storage;
+}
+
+void PlotReadout::paint(QPainter &painter) const
+{
+    const ThemeColors &theme = colors(palette);
+    const LineTime at = view.timeAt((x - area.left()) / area.width() * view.columns);
+    painter.setPen(QPen(theme.dimmed, 1, Qt::DashLine));
+    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+
+    std::vector<Row> rows;
+    painter.setRenderHint(QPainter::Antialiasing);
+    for (const TraceData &trace : traces) {
+        History::Sample sample;
+        if (!trace.isDrawn() || !sampleAt(*trace.history, at, sample))
+            continue;
+        const AxisRange &range = scales.range(trace.unit);
+        rows.push_back({&trace, trace.value(sample.raw)});
+        const qreal y = area.bottom() - (rows.back().value - range.minimum) / range.span() * area.height();
+        if (y < area.top() || y > area.bottom())
+            continue;
+        painter.setPen(QPen(palette.color(QPalette::Base), 1.5));
+        painter.setBrush(trace.color);
+        painter.drawEllipse(QPointF(x, y), 4, 4);
+    }
+    const int more = std::max(0, static_cast<int>(rows.size()) - MostRows);
+    rows.resize(std::min<std::size_t>(rows.size(), MostRows));
+
+    const QFont numbers = numberFont(painter.font());
+    const QFontMetricsF text(painter.font());
+    const QFontMetricsF digits(numbers);
+    const qreal line = std::ceil(text.height() + 3);
+    qreal names = text.horizontalAdvance(timeText(view, at));
+    qreal values = 0;
+    qreal units = 0;
+    for (const Row &row : rows) {
+        names = std::max(names, std::min<qreal>(text.horizontalAdvance(row.trace->label), 240));
+        values = std::max(values, digits.horizontalAdvance(QString::number(row.value, 'f', row.trace->decimals)));
+        units = std::max(units, text.horizontalAdvance(row.trace->unit));
+    }
+    const qreal width = 4 * Padding + Swatch + names + values + units;
+    const qreal height = line * (static_cast<qreal>(rows.size()) + 1 + (more > 0 ? 1 : 0)) + Padding;
+    const bool isLeft = x + Padding + width > area.right();
+    const QRectF box(std::round(isLeft ? x - Padding - width : x + Padding) + 0.5, area.top() + 8.5, width, height);
+    QColor back = palette.color(QPalette::ToolTipBase);
+    back.setAlphaF(0.94F);
+    painter.setPen(theme.border);
+    painter.setBrush(back);
+    painter.drawRoundedRect(box, 4, 4);
+
+    QRectF slot(box.left() + Padding, box.top() + Padding / 2, box.width() - 2 * Padding, line);
+    painter.setPen(theme.dimmed);
+    painter.drawText(slot, Qt::AlignVCenter | Qt::AlignLeft, timeText(view, at));
+    for (const Row &row : rows) {
+        slot.translate(0, line);
+        painter.fillRect(QRectF(slot.left(), slot.center().y() - 1.5, Swatch, 3), row.trace->color);
+        painter.setPen(palette.color(QPalette::ToolTipText));
+        const QRectF name(slot.left() + Swatch + Padding, slot.top(), names, line);
+        painter.drawText(name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->label, Qt::ElideMiddle, names + 1));
+        const QFont font = painter.font();
+        painter.setFont(numbers);
+        painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - Padding / 2, line), Qt::AlignVCenter | Qt::AlignRight,
+                         QString::number(row.value, 'f', row.trace->decimals));
+        painter.setFont(font);
+        painter.setPen(theme.dimmed);
+        painter.drawText(QRectF(slot.right() - units, slot.top(), units, line), Qt::AlignVCenter | Qt::AlignLeft, row.trace->unit);
+    }
+    if (more > 0) {
+        slot.translate(0, line);
+        painter.setPen(theme.dimmed);
+        painter.drawText(slot, Qt::AlignVCenter | Qt::AlignLeft, QCoreApplication::translate("PlotReadout", "and %n more", nullptr, more));
+    }
+    painter.setRenderHint(QPainter::Antialiasing, false);
+}
+
+} // namespace dynascope

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/plotscales.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynascope {
+
+namespace {
+
+constexpr double SmallestSteps = 10; ///< raw steps that fill the axis at least
+
+} // namespace
+
+void PlotScales::setTraces(std::span<const TraceData> traces)
+{
+    for (Scale &scale : m_scales)
+        scale.isUsed = false;
+    for (const TraceData &trace : traces) {
+        auto at = std::ranges::find(m_scales, trace.unit, &Scale::unit);
+        const double smallest = std::max(std::abs(trace.scale) * SmallestSteps, 1e-6);
+        if (at == m_scales.end()) {
+            m_scales.push_back({trace.unit, AxisScaler(smallest, trace.unit == QStringLiteral("°")), false});
+            at = m_scales.end() - 1;
+        }
+        at->isUsed = at->isUsed || trace.visible;
+    }
+    std::erase_if(m_scales, [traces](const Scale &scale) {
+        return std::ranges::none_of(traces, [&scale](const TraceData &trace) { return trace.unit == scale.unit; });
+    });
+}
+
+void PlotScales::setMostSteps(int most)
+{
+    for (Scale &scale : m_scales)
+        scale.scaler.setMostSteps(most);
+}
+
+void PlotScales::fit(std::span<const TraceData> traces, const TimeView &view, LineTime now)
+{
+    for (Scale &scale : m_scales) {
+        double low = 0;
+        double high = 0;
+        bool isFound = false;
+        for (const TraceData &trace : traces) {
+            std::int32_t least = 0;
+            std::int32_t most = 0;
+            if (trace.unit != scale.unit || !trace.isDrawn()
+                || !trace.history->range(view.from(), view.to(), least, most))
+                continue;
+            const double one = trace.value(least);
+            const double other = trace.value(most);
+            low = isFound ? std::min({low, one, other}) : std::min(one, other);
+            high = isFound ? std::max({high, one, other}) : std::max(one, other);
+            isFound = true;
+        }
+        if (isFound)
+            scale.scaler.fit(low, high, now);
+    }
+}
+
+void PlotScales::refit()
+{
+    for (Scale &scale : m_scales)
+        scale.scaler.refit();
+}
+
+const AxisRange &PlotScales::range(const QString &unit) const
+{
+    static const AxisRange none;
+    const auto at = std::ranges::find(m_scales, unit, &Scale::unit);
+    return at == m_scales.end() ? none : at->scaler.range();
+}
+
+const PlotScales::Scale *PlotScales::labelled(int side) const
+{
+    for (const Scale &scale : m_scales) {
+        if (scale.isUsed && side-- == 0)
+            return &scale;
+    }
+    return nullptr;
+}
+
+} // namespace dynascope

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "ui/plot/axisscaler.h"
+#include "ui/plot/tracedata.h"
+
+#include <vector>
+
+namespace dynascope {
+
+/// A value axis for each unit among the traces. The first two in sight get labels, left and right; further ones only
+/// scale.
+class PlotScales
+{
+public:
+    struct Scale {
+        QString unit;
+        AxisScaler scaler;
+        bool isUsed = false; ///< a visible trace has this unit
+    };
+
+    /// Follows the traces' units; a unit keeps its range while it is hidden.
+    void setTraces(std::span<const TraceData> traces);
+    void setMostSteps(int most);
+    /// Fits each axis to what is in view.
+    void fit(std::span<const TraceData> traces, const TimeView &view, LineTime now);
+    void refit();
+
+    const AxisRange &range(const QString &unit) const;
+    /// 0 left, 1 right; none where so many units are not in sight.
+    const Scale *labelled(int side) const;
+    std::vector<Scale> &scales() { return m_scales; }
+
+private:
+    std::vector<Scale> m_scales;
+};
+
+} // namespace dynascope

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/timewindow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dynascope {
+
+void TimeWindow::setSpan(LineTime span)
+{
+    m_span = std::clamp(span, ShortestSpan, LongestSpan);
+    m_pausedSpan = m_span;
+}
+
+void TimeWindow::pause(LineTime newest)
+{
+    if (!m_live)
+        return;
+    m_live = false;
+    m_zero = newest;
+    m_end = newest;
+    m_pausedSpan = m_span;
+}
+
+void TimeWindow::pan(LineTime by)
+{
+    if (!m_live)
+        m_end += by;
+}
+
+void TimeWindow::zoom(double factor, LineTime around)
+{
+    if (m_live)
+        return;
+    const auto wanted = LineTime(static_cast<std::int64_t>(static_cast<double>(m_pausedSpan.count()) * factor));
+    const LineTime span = std::clamp(wanted, ShortestZoom, LongestSpan);
+    const double actual = static_cast<double>(span.count()) / static_cast<double>(m_pausedSpan.count());
+    m_end = around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual));
+    m_pausedSpan = span;
+}
+
+TimeView TimeWindow::view(int columns, LineTime newest) const
+{
+    const int count = std::max(columns, 1);
+    const LineTime span = m_live ? m_span : m_pausedSpan;
+    const LineTime end = m_live ? newest : m_end;
+    TimeView view;
+    view.step = std::max(LineTime(1), span / count);
+    view.columns = count;
+    view.firstColumn = end / view.step - count + 1; // the column that holds `end` is the last
+    view.zero = m_live ? view.to() : m_zero;
+    return view;
+}
+
+} // namespace dynascope

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/history.h"
+
+#include <QColor>
+#include <QString>
+
+namespace dynascope {
+
+/// All that drawing one trace needs; made anew whenever something of it changes. Knows no device, so that anything with
+/// a History can be drawn.
+struct TraceData {
+    const History *history = nullptr; ///< none: nothing has come yet
+    double scale = 1;                 ///< physical = raw × scale + offset, in `unit`
+    double offset = 0;
+    int decimals = 0;
+    QString label;
+    QString unit; ///< traces of one unit share a value axis
+    QColor color;
+    bool visible = true;
+    bool dimmed = false; ///< its device is gone
+
+    double value(std::int32_t raw) const { return raw * scale + offset; }
+    bool isDrawn() const { return visible && history && !history->isEmpty(); }
+};
+
+/// A stretch of time cut into pixel columns. Columns are counted from the clock's zero, so a column keeps its samples
+/// while the view moves: nothing flickers, and what was computed once can be kept.
+struct TimeView {
+    LineTime step{1};              ///< width of a column
+    std::int64_t firstColumn = 0;
+    int columns = 0;
+    LineTime zero{};               ///< what the time axis calls 0 s
+
+    LineTime from() const { return step * firstColumn; }
+    LineTime to() const { return step * (firstColumn + columns); }
+    double column(LineTime at) const
+    {
+        return static_cast<double>((at - from()).count()) / static_cast<double>(step.count());
+    }
+    LineTime timeAt(double column) const
+    {
+        return from() + LineTime(static_cast<std::int64_t>(column * static_cast<double>(step.count())));
+    }
+
+    friend bool operator==(const TimeView &, const TimeView &) = default;
+};
+
+} // namespace dynascope

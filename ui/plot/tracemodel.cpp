@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/plot/tracemodel.h"
+
+#include "core/table/units.h"
+#include "ui/common/theme.h"
+
+#include <algorithm>
+
+namespace dynascope {
+
+TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent)
+    : QAbstractListModel(parent)
+    , m_session(session)
+    , m_monitor(monitor)
+{
+    connect(&session, &Session::deviceAboutToBeRemoved, this, &TraceModel::onDeviceGone);
+}
+
+int TraceModel::indexOf(const Watch &watch) const
+{
+    const auto at = std::ranges::find(m_traces, watch, &Trace::watch);
+    return at == m_traces.end() ? -1 : static_cast<int>(at - m_traces.begin());
+}
+
+std::vector<Watch> TraceModel::watches() const
+{
+    std::vector<Watch> watches;
+    for (const Trace &trace : m_traces)
+        watches.push_back(trace.watch);
+    return watches;
+}
+
+int TraceModel::freeColor() const
+{
+    int color = 0;
+    while (std::ranges::find(m_traces, color, &Trace::color) != m_traces.end())
+        ++color;
+    return color;
+}
+
+/// What the device says of itself and of the field: names, and how raw values become physical ones.
+void TraceModel::describe(Trace &trace) const
+{
+    const Device *device = m_session.device(trace.watch.device);
+    if (!device || trace.gone)
+        return;
+    const EffectiveField effective = device->effective(trace.watch.field);
+    const int resolution = device->table().resolution();
+    const Physical zero = physical(effective, resolution, 0);
+    trace.device = device->displayName();
+    trace.field = device->table().fields()[static_cast<std::size_t>(trace.watch.field)].name;
+    trace.offset = zero.value;
+    trace.scale = physical(effective, resolution, 1).value - zero.value;
+    trace.decimals = zero.decimals;
+    trace.unit = zero.unit;
+}
+
+bool TraceModel::add(const Watch &watch)
+{
+    Device *device = m_session.device(watch.device);
+    if (!device || watch.field < 0 || watch.field >= static_cast<int>(device->table().fields().size())
+        || indexOf(watch) >= 0)
+        return false;
+    Trace trace;
+    trace.watch = watch;
+    trace.color = freeColor();
+    describe(trace);
+    connect(device, &Device::attributesChanged, this, [this, device] { updateDevice(device); });
+    beginInsertRows({}, rowCount(), rowCount());
+    m_traces.push_back(std::move(trace));
+    endInsertRows();
+    return true;
+}
+
+void TraceModel::remove(int row)
+{
+    const DeviceKey key = watch(row).device;
+    beginRemoveRows({}, row, row);
+    m_traces.erase(m_traces.begin() + row);
+    endRemoveRows();
+    Device *device = m_session.device(key);
+    if (device && std::ranges::none_of(m_traces, [key](const Trace &trace) { return trace.watch.device == key; }))
+        disconnect(device, nullptr, this, nullptr);
+}
+
+void TraceModel::setVisible(int row, bool visible)
+{
+    setData(index(row), visible ? Qt::Checked : Qt::Unchecked, Qt::CheckStateRole);
+}
+
+void TraceModel::setColorIndex(int row, int color)
+{
+    m_traces[static_cast<std::size_t>(row)].color = color;
+    emit dataChanged(index(row), index(row), {ColorIndexRole});
+}
+
+void TraceModel::updateDevice(Device *device)
+{
+    for (int row = 0; row < rowCount(); ++row) {
+        Trace &trace = m_traces[static_cast<std::size_t>(row)];
+        if (trace.watch.device != device->key())
+            continue;
+        describe(trace);
+        emit dataChanged(index(row), index(row));
+    }
+}
+
+void TraceModel::onDeviceGone(Device *device)
+{
+    for (int row = 0; row < rowCount(); ++row) {
+        Trace &trace = m_traces[static_cast<std::size_t>(row)];
+        if (trace.watch.device != device->key())
+            continue;
+        trace.gone = true;
+        trace.value.clear();
+        emit dataChanged(index(row), index(row));
+    }
+}
+
+std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
+{
+    std::vector<TraceData> traces;
+    traces.reserve(m_traces.size());
+    for (const Trace &trace : m_traces) {
+        TraceData data;
+        data.history = m_monitor.history(trace.watch);
+        data.scale = trace.scale;
+        data.offset = trace.offset;
+        data.decimals = trace.decimals;
+        data.label = trace.device + QStringLiteral(" · ") + trace.field;
+        data.unit = trace.unit;
+        data.color = traceColor(trace.color, palette);
+        data.visible = trace.visible;
+        const Device *device = m_session.device(trace.watch.device);
+        data.dimmed = trace.gone || !device || device->state() == Device::State::Silent;
+        traces.push_back(std::move(data));
+    }
+    return traces;
+}
+
+void TraceModel::refreshValues()
+{
+    int first = -1;
+    int last = -1;
+    for (int row = 0; row < rowCount(); ++row) {
+        Trace &trace = m_traces[static_cast<std::size_t>(row)];
+        describe(trace); // a register may have changed what this one measures
+        const Device *device = m_session.device(trace.watch.device);
+        const History *history = m_monitor.history(trace.watch);
+        QString value;
+        if (device && !trace.gone && history && !history->isEmpty())
+            value = QString::number(history->last().raw * trace.scale + trace.offset, 'f', trace.decimals);
+        if (value == trace.value)
+            continue;
+        trace.value = value;
+        first = first < 0 ? row : first;
+        last = row;
+    }
+    if (first >= 0)
+        emit dataChanged(index(first), index(last), {ValueRole, UnitRole});
+}
+
+int TraceModel::rowCount(const QModelIndex &parent) const
+{
+    return parent.isValid() ? 0 : static_cast<int>(m_traces.size());
+}
+
+QVariant TraceModel::data(const QModelIndex &index, int role) const
+{
+    if (!index.isValid())
+        return {};
+    const Trace &trace = m_traces[static_cast<std::size_t>(index.row())];
+    switch (role) {
+    case Qt::DisplayRole:
+    case Qt::AccessibleTextRole: return trace.device + QStringLiteral(" · ") + trace.field;
+    case Qt::ToolTipRole: {
+        const QString name = trace.device + QStringLiteral(" · ") + trace.field;
+        return trace.gone ? tr("%1\nThis device is gone.").arg(name) : name;
+    }
+    case Qt::CheckStateRole: return trace.visible ? Qt::Checked : Qt::Unchecked;
+    case ColorIndexRole: return trace.color;
+    case FieldRole: return trace.field;
+    case DeviceRole: return trace.device;
+    case ValueRole: return trace.value;
+    case UnitRole: return trace.unit;
+    case GoneRole: {
+        const Device *device = m_session.device(trace.watch.device);
+        return trace.gone || !device || device->state() == Device::State::Silent;
+    }
+    default: return {};
+    }
+}
+
+bool TraceModel::setData(const QModelIndex &index, const QVariant &value, int role)
+{
+    if (!index.isValid() || role != Qt::CheckStateRole)
+        return false;
+    Trace &trace = m_traces[static_cast<std::size_t>(index.row())];
+    const bool visible = value.toInt() == Qt::Checked;
+    if (visible != trace.visible) {
+        trace.visible = visible;
+        emit dataChanged(index, index, {Qt::CheckStateRole});
+    }
+    return true;
+}
+
+Qt::ItemFlags TraceModel::flags(const QModelIndex &index) const
+{
+    const Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
+    return index.isValid() ? flags | Qt::ItemIsUserCheckable : flags;
+}
+
+} // namespace dynascope

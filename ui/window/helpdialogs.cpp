@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/helpdialogs.h"
+
+#include "ui/common/icons.h"
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QMainWindow>
+#include <QMessageBox>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <map>
+
+namespace dynascope {
+
+namespace {
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("Help", text);
+}
+
+QString plainText(const QAction &action)
+{
+    QString text = action.text().section(QLatin1Char('\t'), 0, 0);
+    text.remove(QLatin1Char('&'));
+    text.remove(QChar(0x2026));
+    return text;
+}
+
+} // namespace
+
+void showShortcuts(QMainWindow &window)
+{
+    auto *dialog = new QDialog(&window);
+    dialog->setObjectName(QStringLiteral("shortcutsDialog"));
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(tr("Keyboard shortcuts"));
+    auto *list = new QTreeWidget(dialog);
+    list->setColumnCount(2);
+    list->setHeaderLabels({tr("Action"), tr("Keys")});
+    list->setRootIsDecorated(false);
+    list->setAlternatingRowColors(true);
+    list->setAccessibleName(tr("Keyboard shortcuts"));
+
+    std::map<QString, QString> keys; // by name, each once
+    for (const QAction *action : window.findChildren<QAction *>()) {
+        if (!action->shortcut().isEmpty() && !action->text().isEmpty())
+            keys[plainText(*action)] = action->shortcut().toString(QKeySequence::NativeText);
+    }
+    new QTreeWidgetItem(list, {tr("STOP: torque off everywhere, at once"), tr("Esc, anywhere")});
+    for (const auto &[text, key] : keys)
+        new QTreeWidgetItem(list, {text, key});
+    list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    list->header()->setStretchLastSection(false);
+
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+    auto *layout = new QVBoxLayout(dialog);
+    layout->setContentsMargins(16, 16, 16, 16);
+    layout->addWidget(list);
+    layout->addWidget(buttons);
+    dialog->resize(460, 520);
+    dialog->open();
+}
+
+void showAbout(QMainWindow &window)
+{
+    auto *box = new QMessageBox(&window);
+    box->setObjectName(QStringLiteral("aboutBox"));
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setWindowTitle(tr("About Dynascope"));
+    box->setIconPixmap(applicationIcon().pixmap(QSize(64, 64), window.devicePixelRatioF()));
+    box->setTextFormat(Qt::PlainText);
+    const QString version = QCoreApplication::applicationVersion();
+    box->setText(version.isEmpty() ? tr("Dynascope") : tr("Dynascope %1").arg(version));
+    box->setInformativeText(tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
+                               "Free software under the GNU General Public License, version 3 or later. It comes without any "
+                               "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
+    box->open();
+}
+
+} // namespace dynascope

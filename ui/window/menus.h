@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "ui/common/theme.h"
+#include "ui/window/layoutmanager.h"
+
+#include <QObject>
+
+class QAction;
+class QMainWindow;
+class QMenu;
+
+namespace dynascope {
+
+/// The menu bar. Knows what there is to ask for, not how it is done.
+class Menus : public QObject
+{
+    Q_OBJECT
+
+public:
+    Menus(QMainWindow &window, const std::vector<QAction *> &deviceActions, LayoutManager &layout);
+
+    void setConnected(bool connected, bool canScan, bool simulated);
+    void setScheme(ColorScheme scheme); ///< which one is ticked
+
+signals:
+    void choosePortRequested();
+    void toggleConnectionRequested();
+    void connectRequested(const QString &port);
+    void scanRequested();
+    void scanOptionsRequested();
+    void schemeRequested(dynascope::ColorScheme scheme);
+    void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
+    void resumeDemoRequested();
+    void stopRequested();
+
+private:
+    QAction *add(QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
+    void makeFileMenu();
+    void makeViewMenu(LayoutManager &layout);
+    void makeDeviceMenu(const std::vector<QAction *> &actions);
+    void makeDemoMenu();
+    void makeHelpMenu();
+    void fillRecent(QMenu *menu);
+
+    QMainWindow &m_window;
+    QAction *m_connect = nullptr;
+    QAction *m_scan = nullptr;
+    QAction *m_scanOptions = nullptr;
+    QAction *m_resumeDemo = nullptr;
+    std::vector<QAction *> m_schemes;
+};
+
+} // namespace dynascope

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/outcomes.h"
+
+#include "core/session/commands.h"
+#include "core/session/stopcontrol.h"
+#include "ui/common/messagebar.h"
+
+namespace dynascope {
+
+namespace {
+
+QString sentence(QString text)
+{
+    if (!text.isEmpty() && !text.endsWith(u'.') && !text.endsWith(u'…') && !text.endsWith(u'?'))
+        text += u'.';
+    return text;
+}
+
+} // namespace
+
+Outcomes::Outcomes(const Workbench &workbench, MessageBar &messages, MessageBar &stopBar, IsShown isShown)
+    : QObject(&messages)
+    , m_workbench(workbench)
+    , m_messages(messages)
+    , m_stopBar(stopBar)
+    , m_isShown(std::move(isShown))
+{
+    connect(&workbench.commands, &Commands::failed, this, &Outcomes::onFailed);
+    connect(&workbench.commands, &Commands::succeeded, this,
+            [this](Device *, const QString &what) { m_messages.post(MessageKind::Success, sentence(what)); });
+    connect(&workbench.stop, &StopControl::changed, this, &Outcomes::onStop);
+    onStop();
+}
+
+bool Outcomes::standsAtCell(const Device &device, const Error &error) const
+{
+    if (!m_isShown(device))
+        return false;
+    const auto count = static_cast<int>(device.table().fields().size());
+    for (int i = 0; i < count; ++i) {
+        const FieldValue &value = device.value(i);
+        if (value.state == FieldState::Failed && value.error == error.text)
+            return true;
+    }
+    return false;
+}
+
+void Outcomes::onFailed(Device *device, const Error &error)
+{
+    if (error.kind == ErrorKind::Cancelled || (device && standsAtCell(*device, error)))
+        return;
+    if (error.kind == ErrorKind::PortLost)
+        return; // the line says so itself, once
+    const MessageKind kind = error.kind == ErrorKind::Stopped ? MessageKind::Warning : MessageKind::Error;
+    m_messages.post(kind, sentence(error.text));
+}
+
+void Outcomes::onStop()
+{
+    const StopControl &stop = m_workbench.stop;
+    if (!stop.isActive()) {
+        m_stopBar.clear();
+        return;
+    }
+    const QString text = tr("STOP. %1 Until it is released nothing can be moved from here.").arg(sentence(stop.report()));
+    if (m_stopBar.text() == text)
+        return;
+    m_stopBar.post({stop.isConfirmed() ? MessageKind::Warning : MessageKind::Error, text, tr("Release STOP"),
+                    [this] { m_workbench.stop.release(); }});
+}
+
+} // namespace dynascope

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/statusview.h"
+
+#include "core/session/linesession.h"
+#include "ui/common/elidedlabel.h"
+#include "ui/common/texts.h"
+#include "ui/common/theme.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+
+namespace dynascope {
+
+StatusView::StatusView(QWidget *parent)
+    : QWidget(parent)
+    , m_name(new ElidedLabel(this))
+{
+    setObjectName(QStringLiteral("statusView"));
+    auto *layout = new QHBoxLayout(this);
+    layout->setContentsMargins(12, 2, 12, 2);
+    layout->setSpacing(6);
+    m_name->setObjectName(QStringLiteral("statusLine"));
+    layout->addWidget(m_name, 1);
+    m_devices = addFigure(QStringLiteral("statusDevices"), tr("Devices"), QStringLiteral("252 + 252"),
+                          tr("Devices at the line's baud rate, and those parked at others"));
+    m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 Hz"),
+                       tr("Poll cycles a second of what is plotted, over the last second"));
+    m_load = addFigure(QStringLiteral("statusLoad"), tr("Bus load"), QStringLiteral("100 %"),
+                       tr("Part of the last second that was spent in exchanges"));
+    m_errors = addFigure(QStringLiteral("statusErrors"), tr("Errors"), QStringLiteral("000000"), QString());
+    setLine(nullptr);
+}
+
+QLabel *StatusView::addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip)
+{
+    auto *label = new QLabel(caption, this);
+    label->setForegroundRole(QPalette::PlaceholderText);
+    label->setToolTip(tip);
+    auto *figure = new QLabel(this);
+    figure->setObjectName(name);
+    figure->setAccessibleName(caption);
+    figure->setFont(numberFont(font()));
+    figure->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    figure->setMinimumWidth(QFontMetrics(figure->font()).horizontalAdvance(widest));
+    figure->setToolTip(tip);
+    auto *box = static_cast<QHBoxLayout *>(layout());
+    box->addSpacing(12);
+    box->addWidget(label);
+    box->addWidget(figure);
+    return figure;
+}
+
+void StatusView::setLine(LineSession *line)
+{
+    if (m_line && m_line != line)
+        m_line->disconnect(this);
+    if (line && m_line != line) {
+        connect(line, &LineSession::rateChanged, this, &StatusView::update);
+        connect(line, &LineSession::stateChanged, this, &StatusView::update);
+    }
+    m_line = line;
+    update();
+}
+
+void StatusView::setDeviceCount(int present, int parked)
+{
+    m_devices->setText(parked > 0 ? QStringLiteral("%1 + %2").arg(present).arg(parked) : QString::number(present));
+}
+
+void StatusView::update()
+{
+    const bool open = m_line && m_line->state() == BusThread::State::Open;
+    m_name->setText(m_line ? QStringLiteral("%1 · %2").arg(portText(m_line->name()), lineStateText(*m_line)) : tr("No line is open"));
+    const QString none = QStringLiteral("–");
+    m_rate->setText(open && m_line->cycleRate() > 0 ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
+    m_load->setText(open ? tr("%1 %").arg(qRound(m_line->busLoad() * 100)) : none);
+    updateErrors();
+}
+
+void StatusView::updateErrors()
+{
+    if (!m_line) {
+        m_errors->setText(QStringLiteral("–"));
+        m_errors->setToolTip({});
+        return;
+    }
+    const BusStatistics seen = m_line->bus().statistics();
+    const quint64 errors = seen.timeouts + seen.crcErrors + seen.lengthErrors;
+    m_errors->setText(QString::number(errors));
+    QPalette ink = palette();
+    if (errors > 0)
+        ink.setColor(QPalette::WindowText, colors(palette()).warning);
+    m_errors->setPalette(ink);
+    const QStringList lines{tr("Since the port was opened:"),
+                            tr("%1 answers that didn't come or were cut off").arg(seen.timeouts),
+                            tr("%1 damaged packets (CRC)").arg(seen.crcErrors),
+                            tr("%1 answers of a wrong length").arg(seen.lengthErrors),
+                            tr("%1 packets nobody asked for").arg(seen.strays),
+                            tr("%1 requests sent again").arg(seen.retries),
+                            tr("%1 exchanges, %2 answers").arg(seen.exchanges).arg(seen.replies)};
+    m_errors->setToolTip(lines.join(QLatin1Char('\n')));
+}
+
+} // namespace dynascope

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QPointer>
+#include <QWidget>
+
+class QLabel;
+
+namespace dynascope {
+
+class ElidedLabel;
+class LineSession;
+
+/// What one line achieves: cycle rate, bus load, errors by kind. Figures have fixed places, so nothing moves.
+class StatusView : public QWidget
+{
+    Q_OBJECT
+
+public:
+    explicit StatusView(QWidget *parent = nullptr);
+
+    void setLine(LineSession *line); ///< nullptr: none
+    void setDeviceCount(int present, int parked);
+
+private:
+    QLabel *addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip);
+    void update();
+    void updateErrors();
+
+    QPointer<LineSession> m_line;
+    ElidedLabel *m_name;
+    QLabel *m_devices;
+    QLabel *m_rate;
+    QLabel *m_load;
+    QLabel *m_errors;
+};
+
+} // namespace dynascope

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/window/torqueguard.h"
+
+#include "core/session/commands.h"
+
+#include <QMessageBox>
+#include <QPushButton>
+
+namespace dynascope {
+
+TorqueGuard::TorqueGuard(const Workbench &workbench, QWidget *window)
+    : QObject(window)
+    , m_workbench(workbench)
+    , m_window(window)
+{
+    connect(&workbench.session, &Session::deviceAdded, this, &TorqueGuard::follow);
+    connect(&workbench.session, &Session::deviceAboutToBeRemoved, this,
+            [this](Device *device) { m_enabled.erase(device->key()); });
+    for (Device *device : workbench.session.devices())
+        follow(device);
+}
+
+void TorqueGuard::follow(Device *device)
+{
+    connect(device, &Device::fieldsChanged, this, [this, device](int first, int last) { onFields(device, first, last); });
+}
+
+void TorqueGuard::onFields(Device *device, int first, int last)
+{
+    // A write of 1 to Torque Enable, wherever in the window it was made, shows as a pending value.
+    const int torque = device->table().indexOf(u"Torque Enable");
+    if (torque < first || torque > last)
+        return;
+    const FieldValue &value = device->value(torque);
+    if (value.pending == 1)
+        m_enabled.insert(device->key());
+    else if (value.raw == 0 && !value.pending)
+        m_enabled.erase(device->key());
+}
+
+void TorqueGuard::noteEnabled(const std::vector<DeviceKey> &devices)
+{
+    m_enabled.insert(devices.begin(), devices.end());
+}
+
+std::vector<Device *> TorqueGuard::holding() const
+{
+    std::vector<Device *> devices;
+    for (const DeviceKey key : m_enabled) {
+        Device *device = m_workbench.session.device(key);
+        if (device && device->isTorqueOn() && device->line()->state() == BusThread::State::Open)
+            devices.push_back(device);
+    }
+    return devices;
+}
+
+bool TorqueGuard::mayClose()
+{
+    const std::vector<Device *> devices = holding();
+    if (m_agreed || devices.empty())
+        return true;
+    if (m_window->findChild<QMessageBox *>(QStringLiteral("torqueBox")))
+        return false; // it is being asked
+    QStringList names;
+    for (const Device *device : devices)
+        names << device->displayName();
+    auto *box = new QMessageBox(QMessageBox::Question, tr("Devices under torque"),
+                                tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
+                                    .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
+                                                           : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
+                                QMessageBox::Cancel, m_window);
+    box->setObjectName(QStringLiteral("torqueBox"));
+    box->setAttribute(Qt::WA_DeleteOnClose);
+    QPushButton *leave = box->addButton(tr("Leave it on and close"), QMessageBox::AcceptRole);
+    leave->setObjectName(QStringLiteral("leaveTorqueButton"));
+    QPushButton *off = box->addButton(tr("Turn it off and close"), QMessageBox::DestructiveRole);
+    off->setObjectName(QStringLiteral("turnTorqueOffButton"));
+    box->setDefaultButton(QMessageBox::Cancel);
+    const auto agree = [this] {
+        m_agreed = true;
+        emit closeAgreed();
+    };
+    connect(leave, &QPushButton::clicked, this, agree);
+    connect(off, &QPushButton::clicked, this, [this, agree] {
+        // A failure is said in the message bar, and the window stays.
+        m_workbench.commands.setTorque(holding(), false, [here = QPointer<TorqueGuard>(this), agree](const Result<void> &result) {
+            if (here && result)
+                agree();
+        });
+    });
+    box->open();
+    return false;
+}
+
+} // namespace dynascope
