@@ -16,7 +16,7 @@ struct Chain {
         StatusPacket status;
     };
     LineTime heardAt{};
-    GroupReadCommand group;
+    GroupReadCommand group{};
     std::vector<Member> waiting;
     std::vector<StatusPacket> blocks; ///< of a fast read: all listed, blank until their turn
 };

@@ -22,8 +22,8 @@ struct Reaction {
     LineTime delay{};   ///< processing and Return Delay Time
     int baudRate = 57600;
     StatusPacket status;
-    GroupReadCommand group; ///< with Chain
-    std::size_t index = 0;  ///< with Chain: our place in group.spans
+    GroupReadCommand group{}; ///< with Chain
+    std::size_t index = 0;    ///< with Chain: our place in group.spans
 };
 
 /// One virtual servo: its control table, and what it does with instructions. Hears bytes, says what it would answer;
