@@ -51,15 +51,15 @@ public:
     void beginAt(LineTime now);   ///< what lies before was nothing; once, before anything else
     void advanceTo(LineTime now); ///< motion, watchdog, faults; never goes back
 
-    /// Bytes, the first bit at `begin`. Appends what it wants to answer. True where an instruction packet was among them.
+    /// Bytes, the first bit at `begin`. Appends what it would answer; true where an instruction packet was among them.
     bool hear(ByteView bytes, LineTime begin, LineTime byteTime, std::vector<Reaction> &reactions);
 
     /// @name Past the wire: for scripts and tests
     /// @{
-    std::int64_t value(QStringView name);                         ///< as of the last advanceTo(); 0 without such a register
-    DeviceError write(QStringView name, std::int64_t value);      ///< with all checks and effects of a Write
-    void setHardwareError(std::uint8_t bits);                     ///< as if it had happened: Alert, Shutdown
-    void powerCycle() { boot(m_now); }                            ///< deaf while it boots
+    std::int64_t value(QStringView name);                    ///< as of the last advanceTo(); 0 where there is none
+    DeviceError write(QStringView name, std::int64_t value); ///< with all checks and effects of a Write
+    void setHardwareError(std::uint8_t bits);                ///< as if it had happened: Alert, Shutdown
+    void powerCycle() { boot(m_now); }                       ///< deaf while it boots
     /// @}
 
     /// Called after each write that came by the wire and was obeyed.
