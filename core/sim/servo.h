@@ -37,7 +37,6 @@ public:
         int baudRate = 57600;
     };
     Servo(ControlTablePtr table, const MotorModel &motor, const Identity &identity, std::uint64_t seed);
-
     const QString &model() const { return m_registers.table().model(); }
     const ControlTable &table() const { return m_registers.table(); }
     int firmware() const { return static_cast<int>(m_registers.get(Reg::FirmwareVersion)); }
@@ -60,9 +59,10 @@ public:
     DeviceError write(QStringView name, std::int64_t value); ///< with all checks and effects of a Write
     void setHardwareError(std::uint8_t bits);                ///< as if it had happened: Alert, Shutdown
     void powerCycle() { boot(m_now); }                       ///< deaf while it boots
+    void setPlugged(bool plugged);                           ///< without its cable: no power, nobody hears
     /// @}
 
-    /// Called after each write that came by the wire and was obeyed.
+    /// After each write that came by the wire and was obeyed.
     using WriteObserver = std::function<void(Servo &, int address, ByteView data)>;
     void setWriteObserver(WriteObserver observer) { m_observer = std::move(observer); }
 
