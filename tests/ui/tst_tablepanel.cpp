@@ -7,10 +7,12 @@
 #include "ui/table/tableview.h"
 #include "ui/table/valueedit.h"
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QClipboard>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMenu>
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QToolButton>
@@ -289,6 +291,97 @@ private slots:
         QTest::keyClick(popup, Qt::Key_Return);
         QCOMPARE(taken, qint64(53));
         delete popup;
+    }
+
+    void picksFromTheList()
+    {
+        TableFixture fixture;
+        Window window(fixture);
+        window.panel.setDevices({fixture.add(3)});
+        window.go(QStringLiteral("Operating Mode"));
+        QTest::keyClick(window.view, Qt::Key_Return);
+        auto *list = window.view->findChild<EnumEdit *>();
+        QVERIFY(list);
+        QTRY_VERIFY(list->view()->isVisible());
+        QTest::keyClick(list->view(), Qt::Key_Down);
+        QTest::keyClick(list->view(), Qt::Key_Return);
+        QTRY_COMPARE(fixture.written(), QStringList{QStringLiteral("3 Operating Mode=4")});
+        QTRY_VERIFY(!window.view->findChild<EnumEdit *>());
+
+        // A list that is only looked at writes nothing and goes away.
+        QTest::keyClick(window.view, Qt::Key_Return);
+        list = window.view->findChild<EnumEdit *>();
+        QVERIFY(list);
+        QTRY_VERIFY(list->view()->isVisible());
+        list->hidePopup();
+        QTRY_VERIFY(!window.view->findChild<EnumEdit *>());
+        QCOMPARE(fixture.written().size(), 1);
+    }
+
+    void ticksBitsInAPopUp()
+    {
+        TableFixture fixture;
+        Window window(fixture);
+        window.panel.setDevices({fixture.add(3)});
+        window.go(QStringLiteral("Shutdown"));
+        QTest::keyClick(window.view, Qt::Key_Return);
+        QPointer<BitPopup> popup = window.view->findChild<BitPopup *>();
+        QVERIFY(popup && popup->isVisible());
+        QTest::keyClick(popup, Qt::Key_Escape);
+        QTRY_VERIFY(!popup);
+        QCOMPARE(fixture.written(), QStringList());
+        QTest::keyClick(window.view, Qt::Key_Return);
+        popup = window.view->findChild<BitPopup *>();
+        QVERIFY(popup);
+        popup->findChild<QCheckBox *>()->click();
+        popup->findChild<QPushButton *>(QStringLiteral("bitPopupWrite"))->click();
+        QCOMPARE(fixture.written(), QStringList{QStringLiteral("3 Shutdown=53")});
+    }
+
+    void theMenuResetsToDefault()
+    {
+        TableFixture fixture;
+        Window window(fixture);
+        Device *device = fixture.add(3);
+        TableFixture::set(device, QStringLiteral("Position P Gain"), 1);
+        window.panel.setDevices({device});
+        window.go(QStringLiteral("Position P Gain"));
+        const QPoint at = window.view->visualRect(window.view->currentIndex()).center();
+        emit window.view->customContextMenuRequested(at);
+        auto *menu = window.find<QMenu>("tableMenu");
+        QVERIFY(menu && menu->isVisible());
+        const auto actions = menu->actions();
+        const auto entry = std::ranges::find(actions, QStringLiteral("Reset to default"), &QAction::text);
+        QVERIFY(entry != actions.end() && (*entry)->isEnabled());
+        (*entry)->trigger();
+        menu->close();
+        QCOMPARE(fixture.written(), QStringList{QStringLiteral("3 Position P Gain=800")});
+    }
+
+    void aClickTicksAPlot()
+    {
+        TableFixture fixture;
+        Window window(fixture);
+        window.panel.setDevices({fixture.add(3)});
+        QSignalSpy plot(&window.panel, &TablePanel::plotRequested);
+        window.go(QStringLiteral("Present Current"));
+        const QRect tick = window.view->visualRect(window.cell(QStringLiteral("Present Current"), ColumnKind::Plot));
+        QTest::mouseClick(window.view->viewport(), Qt::LeftButton, {}, tick.center());
+        QCOMPARE(plot.count(), 1);
+    }
+
+    void anotherRowPutsTheLockBarAway()
+    {
+        TableFixture fixture;
+        Window window(fixture);
+        Device *device = fixture.add(3);
+        TableFixture::set(device, QStringLiteral("Torque Enable"), 1);
+        window.panel.setDevices({device});
+        window.go(QStringLiteral("Max Position Limit"));
+        QTest::keyClick(window.view, Qt::Key_Return);
+        QVERIFY(window.find<QWidget>("lockBar")->isVisible());
+        window.go(QStringLiteral("LED"));
+        QVERIFY(!window.find<QWidget>("lockBar")->isVisible());
     }
 
     void severalDevicesAtOnce()

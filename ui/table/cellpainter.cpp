@@ -136,7 +136,7 @@ void paintPlotTick(QPainter *painter, const QStyleOptionViewItem &option, Qt::Ch
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     if (state == Qt::Unchecked) {
-        painter->setPen(option.palette.color(QPalette::Mid));
+        painter->setPen(option.state & QStyle::State_Selected ? ink.dimmed : option.palette.color(QPalette::Mid));
         painter->setBrush(Qt::NoBrush);
         painter->drawRoundedRect(box, 3, 3);
     } else {

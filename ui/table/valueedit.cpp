@@ -89,6 +89,8 @@ void ValueEdit::say()
         m_hint->setWordWrap(true);
         m_hint->setMargin(6);
         m_hint->setAutoFillBackground(true);
+        m_hint->setBackgroundRole(QPalette::Window); // else both follow the grid's
+        m_hint->setForegroundRole(QPalette::WindowText);
         m_hint->setFrameShape(QFrame::StyledPanel);
     }
     if (!m_hint)
@@ -104,14 +106,7 @@ void ValueEdit::say()
         const QString raw = QString::number(*now);
         m_hint->setText(text == raw ? tr("Enter writes %1").arg(raw) : tr("Enter writes %1 = raw %2").arg(text, raw));
     } else {
-        // The message speaks of pulses; the person may think in degrees.
-        const EffectiveField &effective = m_meaning.effective;
-        const bool inDegrees = m_meaning.physical && effective.unit == Unit::Pulse && effective.minimum && effective.maximum;
-        const auto words = [this](std::int64_t raw) {
-            return valueText(m_meaning.field, m_meaning.effective, m_meaning.resolution, raw, m_meaning.angle);
-        };
-        m_hint->setText(inDegrees ? tr("%1 (%2 to %3)").arg(now.error().text, words(*effective.minimum), words(*effective.maximum))
-                                  : now.error().text);
+        m_hint->setText(now.error().text);
     }
     m_hint->setVisible(isVisible() && isChanged());
     placeHint();
