@@ -56,7 +56,7 @@ private slots:
         QCOMPARE(messages::durationText(4649us), QStringLiteral("4.6 ms"));
         QCOMPARE(messages::durationText(16'200us), QStringLiteral("16 ms"));
         QCOMPARE(messages::durationText(150ms), QStringLiteral("150 ms"));
-        QCOMPARE(messages::durationText(3050ms), QStringLiteral("3.1 s"));
+        QCOMPARE(messages::durationText(3160ms), QStringLiteral("3.2 s"));
     }
 };
 
