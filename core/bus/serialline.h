@@ -12,8 +12,8 @@ QT_END_NAMESPACE
 
 namespace dynascope {
 
-/// A serial port, for this program alone. Blocking, without an event loop, on the thread that opened it, which must be a
-/// QThread.
+/// A serial port, for this program alone. Blocking, without an event loop, on the thread that opened it, which must be
+/// a QThread.
 class SerialLine final : public Line
 {
 public:
@@ -56,7 +56,7 @@ private:
 class SerialLineFactory final : public LineFactory
 {
 public:
-    explicit SerialLineFactory(SerialLine::Options options = {}) : m_options(options) {}
+    explicit SerialLineFactory(SerialLine::Options options = {}) : m_options(options) { }
 
     bool knows(const QString &name) const override;
     Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;

@@ -25,23 +25,41 @@ private slots:
         row("noise first", join({{0, 0xFF, 7}, position(3)}), QStringLiteral("3: A6 00 00 00"));
         row("another ID first", join({position(4), position(3)}), QStringLiteral("3: A6 00 00 00"));
         row("a damaged one first", join({damaged(position(3)), position(3)}), QStringLiteral("3: A6 00 00 00"));
-        row("a late one of another length first", join({oracle::status(3, 0, {1}), position(3)}), QStringLiteral("3: A6 00 00 00"));
-        row("nothing", {}, QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
-        row("noise only", {1, 2, 3}, QStringLiteral("device 3 did not answer: 3 bytes came, but no packet began in them (noise, or "
-                                                    "somebody at another baud rate)"), bad(ErrorKind::NoHeader));
-        row("cut off", firstBytes(position(3), 7), QStringLiteral("the answer of device 3 was cut off after 7 of 15 bytes"), bad(ErrorKind::CutOff));
-        row("cut off before its length", firstBytes(position(3), 5), QStringLiteral("the answer of device 3 was cut off after 5 bytes"), bad(ErrorKind::CutOff));
-        row("damaged", damaged(position(3)), QStringLiteral("the answer of device 3 came damaged: its CRC is wrong"), bad(ErrorKind::DamagedCrc));
-        row("another ID only", position(5), QStringLiteral("device 3 did not answer, but device 5 did"), bad(ErrorKind::WrongId));
-        row("other IDs only", join({position(5), position(9)}), QStringLiteral("device 3 did not answer, but devices 5, 9 did"), bad(ErrorKind::WrongId));
-        row("shorter", oracle::status(3, 0, {1}), QStringLiteral("device 3 answered with 1 byte where 4 were asked for"), bad(ErrorKind::WrongLength));
-        row("longer", oracle::status(3, 0, {1, 2, 3, 4, 5}), QStringLiteral("device 3 answered with 5 bytes where 4 were asked for"), bad(ErrorKind::WrongLength));
-        row("refused", oracle::status(3, 7, {}), QStringLiteral("device 3 refused: Access Error, the register is read-only, locked "
-                                                                "while torque is on, or not in its table"), bad(ErrorKind::Refused));
-        row("refused with data", oracle::status(3, 0x84, Position), QStringLiteral("device 3 refused: Data Range Error, the value is outside the register's range"), bad(ErrorKind::Refused));
-        row("only the echo", encode(readPosition().packet), QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
-        row("a status with LEN 3", hex::bytes("FF FF FD 00 03 03 00 55 00 00"), QStringLiteral("device 3 did not answer: 10 bytes came, but no packet "
-                                                  "began in them (noise, or somebody at another baud rate)"), bad(ErrorKind::NoHeader));
+        row("a late one of another length first", join({oracle::status(3, 0, {1}), position(3)}),
+            QStringLiteral("3: A6 00 00 00"));
+        row("nothing", {}, QStringLiteral("device 3 did not answer: nothing was received in time"),
+            bad(ErrorKind::NothingReceived));
+        row("noise only", {1, 2, 3},
+            QStringLiteral("device 3 did not answer: 3 bytes came, but no packet began in them (noise, or "
+                           "somebody at another baud rate)"),
+            bad(ErrorKind::NoHeader));
+        row("cut off", firstBytes(position(3), 7),
+            QStringLiteral("the answer of device 3 was cut off after 7 of 15 bytes"), bad(ErrorKind::CutOff));
+        row("cut off before its length", firstBytes(position(3), 5),
+            QStringLiteral("the answer of device 3 was cut off after 5 bytes"), bad(ErrorKind::CutOff));
+        row("damaged", damaged(position(3)), QStringLiteral("the answer of device 3 came damaged: its CRC is wrong"),
+            bad(ErrorKind::DamagedCrc));
+        row("another ID only", position(5), QStringLiteral("device 3 did not answer, but device 5 did"),
+            bad(ErrorKind::WrongId));
+        row("other IDs only", join({position(5), position(9)}),
+            QStringLiteral("device 3 did not answer, but devices 5, 9 did"), bad(ErrorKind::WrongId));
+        row("shorter", oracle::status(3, 0, {1}),
+            QStringLiteral("device 3 answered with 1 byte where 4 were asked for"), bad(ErrorKind::WrongLength));
+        row("longer", oracle::status(3, 0, {1, 2, 3, 4, 5}),
+            QStringLiteral("device 3 answered with 5 bytes where 4 were asked for"), bad(ErrorKind::WrongLength));
+        row("refused", oracle::status(3, 7, {}),
+            QStringLiteral("device 3 refused: Access Error, the register is read-only, locked "
+                           "while torque is on, or not in its table"),
+            bad(ErrorKind::Refused));
+        row("refused with data", oracle::status(3, 0x84, Position),
+            QStringLiteral("device 3 refused: Data Range Error, the value is outside the register's range"),
+            bad(ErrorKind::Refused));
+        row("only the echo", encode(readPosition().packet),
+            QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
+        row("a status with LEN 3", hex::bytes("FF FF FD 00 03 03 00 55 00 00"),
+            QStringLiteral("device 3 did not answer: 10 bytes came, but no packet "
+                           "began in them (noise, or somebody at another baud rate)"),
+            bad(ErrorKind::NoHeader));
     }
 
     void oneAnswer()
@@ -202,10 +220,10 @@ private slots:
         traits.statusReturnLevel = 0;
         bus.setTraits({traits});
         QCOMPARE(toText(bus.exchange(readPosition(), 0)), // a fence, answered; then silence
-                 QStringList(QStringLiteral("device 3 did not answer: nothing was received in time")));
+            QStringList(QStringLiteral("device 3 did not answer: nothing was received in time")));
         line.answer(oracle::status(3, 0, {6, 4, 38})).silence();
         QCOMPARE(toText(bus.exchange(readPosition(), 0)),
-                 QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
+            QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
     }
 
     void stopEndsAnExchangeAtOnce()
@@ -280,11 +298,13 @@ private slots:
         Bus bus(line);
         QStringList seen;
         bus.setTap([&](Bus::Direction direction, LineTime, ByteView bytes) {
-            seen << (direction == Bus::Direction::Sent ? QStringLiteral("> ") : QStringLiteral("< ")) + hex::text(bytes);
+            seen << (direction == Bus::Direction::Sent ? QStringLiteral("> ") : QStringLiteral("< "))
+                    + hex::text(bytes);
         });
         QVERIFY(bus.exchange(readPosition()));
-        QCOMPARE(seen, (QStringList{QStringLiteral("> FF FF FD 00 03 07 00 02 84 00 04 00 ") + seen[0].right(5),
-                                    QStringLiteral("< ") + hex::text(position(4)), QStringLiteral("< ") + hex::text(position(3))}));
+        QCOMPARE(seen,
+            (QStringList{QStringLiteral("> FF FF FD 00 03 07 00 02 84 00 04 00 ") + seen[0].right(5),
+                QStringLiteral("< ") + hex::text(position(4)), QStringLiteral("< ") + hex::text(position(3))}));
         const BusStatistics statistics = bus.statistics();
         QCOMPARE(statistics.exchanges, quint64(1));
         QCOMPARE(statistics.replies, quint64(1));

@@ -17,27 +17,46 @@ private slots:
         QTest::addColumn<QList<Bytes>>("packets");
         QTest::addColumn<QStringList>("said");
         QTest::addColumn<int>("broken");
-        const QString ok1 = QStringLiteral("1: A6 00 00 00"), ok2 = QStringLiteral("2: A6 00 00 00"), ok3 = QStringLiteral("3: A6 00 00 00");
+        const QString ok1 = QStringLiteral("1: A6 00 00 00"), ok2 = QStringLiteral("2: A6 00 00 00"),
+                      ok3 = QStringLiteral("3: A6 00 00 00");
         QTest::newRow("all") << QList<Bytes>{position(1), position(2), position(3)} << QStringList{ok1, ok2, ok3} << -1;
         QTest::newRow("last missing") << QList<Bytes>{position(1), position(2)}
-            << QStringList{ok1, ok2, QStringLiteral("device 3 did not answer: nothing was received in time")} << 2;
-        QTest::newRow("second missing") << QList<Bytes>{position(1)}
+                                      << QStringList{ok1, ok2,
+                                             QStringLiteral("device 3 did not answer: nothing was received in time")}
+                                      << 2;
+        QTest::newRow("second missing")
+            << QList<Bytes>{position(1)}
             << QStringList{ok1, QStringLiteral("device 2 did not answer: nothing was received in time"),
-                           QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")} << 1;
-        QTest::newRow("first missing") << QList<Bytes>{}
+                   QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")}
+            << 1;
+        QTest::newRow("first missing")
+            << QList<Bytes>{}
             << QStringList{QStringLiteral("device 1 did not answer: nothing was received in time"),
-                           QStringLiteral("device 2 was not heard: device 1, asked before it, did not finish its answer"),
-                           QStringLiteral("device 3 was not heard: device 1, asked before it, did not finish its answer")} << 0;
+                   QStringLiteral("device 2 was not heard: device 1, asked before it, did not finish its answer"),
+                   QStringLiteral("device 3 was not heard: device 1, asked before it, did not finish its answer")}
+            << 0;
         QTest::newRow("second damaged") << QList<Bytes>{position(1), damaged(position(2)), position(3)}
-            << QStringList{ok1, QStringLiteral("the answer of device 2 came damaged: its CRC is wrong"), ok3} << -1;
-        QTest::newRow("second cut off") << QList<Bytes>{position(1), firstBytes(position(2), 9)}
+                                        << QStringList{ok1,
+                                               QStringLiteral("the answer of device 2 came damaged: its CRC is wrong"),
+                                               ok3}
+                                        << -1;
+        QTest::newRow("second cut off")
+            << QList<Bytes>{position(1), firstBytes(position(2), 9)}
             << QStringList{ok1, QStringLiteral("the answer of device 2 was cut off after 9 of 15 bytes"),
-                           QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")} << 1;
-        QTest::newRow("second of another length") << QList<Bytes>{position(1), oracle::status(2, 0, {1, 2}), position(3)}
+                   QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")}
+            << 1;
+        QTest::newRow("second of another length")
+            << QList<Bytes>{position(1), oracle::status(2, 0, {1, 2}), position(3)}
             << QStringList{ok1, QStringLiteral("device 2 answered with 2 bytes where 4 were asked for"), ok3} << -1;
         QTest::newRow("second refuses") << QList<Bytes>{position(1), oracle::status(2, 7, {}), position(3)}
-            << QStringList{ok1, QStringLiteral("device 2 refused: Access Error, the register is read-only, locked while torque is on, or not in its table"), ok3} << -1;
-        QTest::newRow("second silent, third bold") << QList<Bytes>{position(1), position(3)}
+                                        << QStringList{ok1,
+                                               QStringLiteral(
+                                                   "device 2 refused: Access Error, the register is read-only, locked "
+                                                   "while torque is on, or not in its table"),
+                                               ok3}
+                                        << -1;
+        QTest::newRow("second silent, third bold")
+            << QList<Bytes>{position(1), position(3)}
             << QStringList{ok1, QStringLiteral("device 2 did not answer: nothing was received in time"), ok3} << -1;
     }
 
@@ -88,7 +107,8 @@ private slots:
         QFETCH(int, keep);
         QFETCH(int, flip);
         QFETCH(int, good);
-        Bytes wire = hex::bytes("FF FF FD 00 FE 19 00 55 00 03 A6 00 00 00 84 08 00 07 1F 08 00 00 16 CA 00 04 FF 03 00 00 D1 9E");
+        Bytes wire = hex::bytes(
+            "FF FF FD 00 FE 19 00 55 00 03 A6 00 00 00 84 08 00 07 1F 08 00 00 16 CA 00 04 FF 03 00 00 D1 9E");
         if (flip >= 0)
             wire[static_cast<std::size_t>(flip)] ^= 0x02;
         FakeLine line;
@@ -110,11 +130,11 @@ private slots:
     {
         FakeLine line;
         line.answer(FakeLine::Answer{{0ms, oracle::status(0, 0, {6, 4, 38})},
-                                     {21ms, oracle::status(7, 0x80, {0xFC, 3, 45})},
-                                     {740ms, oracle::status(250, 0, {6, 4, 38})}});
+            {21ms, oracle::status(7, 0x80, {0xFC, 3, 45})}, {740ms, oracle::status(250, 0, {6, 4, 38})}});
         Bus bus(line);
         std::vector<std::pair<int, LineTime>> found;
-        const auto result = bus.broadcastPing(252, [&](const Reply &reply) { found.emplace_back(reply.id, line.now()); });
+        const auto result =
+            bus.broadcastPing(252, [&](const Reply &reply) { found.emplace_back(reply.id, line.now()); });
         QVERIFY(result);
         QCOMPARE(result->replies.size(), std::size_t(3));
         QCOMPARE(found.size(), std::size_t(3));

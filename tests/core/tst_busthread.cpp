@@ -48,8 +48,9 @@ private slots:
         QTRY_COMPARE(thread.state(), BusThread::State::Closed);
         QCOMPARE(thread.error().kind, ErrorKind::PortNotFound);
         QString outcome;
-        thread.run<int>(Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
-                        [&](const Result<int> &result) { outcome = World::text(result); });
+        thread.run<int>(
+            Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
+            [&](const Result<int> &result) { outcome = World::text(result); });
         QTRY_COMPARE(outcome, QStringLiteral("there is no port nowhere"));
     }
 
@@ -82,10 +83,13 @@ private slots:
         World world;
         auto context = std::make_unique<QObject>();
         QSemaphore go;
-        world.run(Priority::Normal, [&](JobContext &) -> Result<int> {
-            go.acquire();
-            return 1;
-        }, context.get());
+        world.run(
+            Priority::Normal,
+            [&](JobContext &) -> Result<int> {
+                go.acquire();
+                return 1;
+            },
+            context.get());
         world.run(Priority::Normal, [](JobContext &) -> Result<int> { return 2; });
         context.reset();
         go.release();
@@ -272,10 +276,12 @@ private slots:
         auto thread = std::make_unique<BusThread>(factory, QStringLiteral("fake"), 1'000'000);
         int deliveries = 0;
         for (int i = 0; i < 3; ++i) {
-            thread->run<int>(Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; }, [&](const Result<int> &) {
-                ++deliveries;
-                thread.reset();
-            });
+            thread->run<int>(
+                Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
+                [&](const Result<int> &) {
+                    ++deliveries;
+                    thread.reset();
+                });
         }
         QTRY_VERIFY(!thread);
         QCOMPARE(deliveries, 1);

@@ -18,7 +18,10 @@ QStringList toText(const std::vector<FakeLine::Sent> &log)
 {
     QStringList lines;
     for (const FakeLine::Sent &sent : log)
-        lines << QStringLiteral("%1 %2 %3").arg(sent.baudRate).arg(instructionName(static_cast<Instruction>(sent.bytes[7]))).arg(sent.bytes[4]);
+        lines << QStringLiteral("%1 %2 %3")
+                     .arg(sent.baudRate)
+                     .arg(instructionName(static_cast<Instruction>(sent.bytes[7])))
+                     .arg(sent.bytes[4]);
     return lines;
 }
 
@@ -27,7 +30,8 @@ QString toText(const std::vector<Bytes> &packets)
 {
     QStringList parts;
     for (const Bytes &packet : packets) {
-        const InstructionPacket instruction{packet[4], static_cast<Instruction>(packet[7]), Bytes(packet.begin() + 8, packet.end() - 2)};
+        const InstructionPacket instruction{
+            packet[4], static_cast<Instruction>(packet[7]), Bytes(packet.begin() + 8, packet.end() - 2)};
         const auto writes = std::get<GroupWriteCommand>(*decodeCommand(instruction)).writes;
         QStringList ids;
         for (const SpanData &write : writes)
@@ -104,8 +108,8 @@ private slots:
             servos.servos[5] = servos.servos[1];
             servos.servos[5].silent = true;
         });
-        world.thread.setStopTargets({{11, 1, 1'000'000, 64}, {12, 2, 1'000'000, 64}, {13, 3, 57600, 64}, {14, 4, 1'000'000, 24},
-                                     {15, 5, 1'000'000, 64}});
+        world.thread.setStopTargets({{11, 1, 1'000'000, 64}, {12, 2, 1'000'000, 64}, {13, 3, 57600, 64},
+            {14, 4, 1'000'000, 24}, {15, 5, 1'000'000, 64}});
         QSignalSpy finished(&world.thread, &BusThread::stopFinished);
         QSemaphore started, go;
         world.run(Priority::Normal, [&](JobContext &context) -> Result<int> {
@@ -128,9 +132,12 @@ private slots:
         const auto outcomes = finished.front().front().value<std::vector<StopOutcome>>();
         QStringList said;
         for (const StopOutcome &outcome : outcomes)
-            said << QStringLiteral("%1 %2").arg(outcome.device).arg(outcome.off ? QStringLiteral("off") : outcome.text.section(QLatin1Char(':'), 0, 0));
-        QCOMPARE(said, (QStringList{QStringLiteral("11 off"), QStringLiteral("12 off"), QStringLiteral("14 off"),
-                                    QStringLiteral("15 device 5 did not answer"), QStringLiteral("13 off")}));
+            said << QStringLiteral("%1 %2")
+                        .arg(outcome.device)
+                        .arg(outcome.off ? QStringLiteral("off") : outcome.text.section(QLatin1Char(':'), 0, 0));
+        QCOMPARE(said,
+            (QStringList{QStringLiteral("11 off"), QStringLiteral("12 off"), QStringLiteral("14 off"),
+                QStringLiteral("15 device 5 did not answer"), QStringLiteral("13 off")}));
         // The bus works on; what is refused from now on is the session's to say.
         world.run(Priority::Click, [](JobContext &context) -> Result<int> { return ping(context.bus(), 1) ? 3 : -3; });
         QTRY_COMPARE(world.outcomes.last(), QStringLiteral("3"));
@@ -138,10 +145,11 @@ private slots:
         QVERIFY(!world.thread.isStopped());
         world.thread.close();
         const QStringList sent = toText(*world.factory.log).mid(0, 8);
-        QCOMPARE(sent, (QStringList{QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
-                                    QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
-                                    QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254"),
-                                    QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254")}));
+        QCOMPARE(sent,
+            (QStringList{QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
+                QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
+                QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254"),
+                QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254")}));
         for (const FakeLine::Sent &entry : *world.factory.log)
             QVERIFY(!(entry.bytes[7] == 3 && entry.bytes[4] == 254)); // never a broadcast Write
     }

@@ -12,13 +12,13 @@ namespace dynascope {
 struct BusWorld {
     /// `prepare` runs on the bus thread, before the line is used.
     explicit BusWorld(std::function<void(FakeLine &, FakeServos &)> prepare = {})
-        : factory(std::move(prepare))
-        , thread(factory, QStringLiteral("fake"), 1'000'000)
+        : factory(std::move(prepare)), thread(factory, QStringLiteral("fake"), 1'000'000)
     {
     }
     JobId run(Priority priority, std::function<Result<int>(JobContext &)> job, QObject *context = nullptr)
     {
-        return thread.run<int>(priority, context, std::move(job), [this](const Result<int> &result) { outcomes << text(result); });
+        return thread.run<int>(
+            priority, context, std::move(job), [this](const Result<int> &result) { outcomes << text(result); });
     }
     static QString text(const Result<int> &result) { return result ? QString::number(*result) : result.error().text; }
 
