@@ -36,6 +36,7 @@ namespace dynascope {
 namespace {
 
 const QString PlotsKey = QStringLiteral("window/plots");
+const QString TableKey = QStringLiteral("window/table");
 
 } // namespace
 
@@ -75,7 +76,8 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     connectDevices();
     connectPlots();
     setScheme(savedColorScheme());
-    m_bar->setPort(Connector::lastPort(), Connector::lastBaudRate());
+    if (!Connector::lastPort().isEmpty())
+        m_bar->setPort(Connector::lastPort(), Connector::lastBaudRate(Connector::lastPort()));
     restoreParts();
     onLines();
 }
@@ -161,6 +163,9 @@ void MainWindow::connectPlots()
 {
     connect(m_table, &TablePanel::plotRequested, m_plots, &PlotArea::addTrace);
     connect(m_table, &TablePanel::unplotRequested, m_plots, &PlotArea::removeTrace);
+    connect(m_plots, &PlotArea::tracesChanged, m_table, &TablePanel::refreshWatches);
+    connect(m_table, &TablePanel::changeIdRequested, &m_devices->actions(), &DeviceActions::openChangeId);
+    connect(m_table, &TablePanel::changeBaudRequested, &m_devices->actions(), &DeviceActions::openChangeBaud);
 }
 
 void MainWindow::connectTo(const QString &port, int baudRate)
@@ -168,8 +173,9 @@ void MainWindow::connectTo(const QString &port, int baudRate)
     const QString name = port.isEmpty() ? Connector::lastPort() : port;
     if (name.isEmpty())
         return;
-    m_bar->setPort(name, baudRate > 0 ? baudRate : Connector::lastBaudRate());
-    m_connector->connectTo(name, baudRate > 0 ? baudRate : Connector::lastBaudRate());
+    const int baud = baudRate > 0 ? baudRate : Connector::lastBaudRate(name);
+    m_bar->setPort(name, baud);
+    m_connector->connectTo(name, baud);
 }
 
 void MainWindow::setScheme(ColorScheme scheme)
@@ -189,7 +195,13 @@ void MainWindow::onLines()
     const bool any = std::ranges::any_of(lines, [](const auto &each) {
         return each->state() == BusThread::State::Open || !each->devices().empty();
     });
-    m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+    if (any != (m_pages->currentWidget() == m_outer)) {
+        // What had the focus hides; it must not fall to the next in the chain, perhaps STOP.
+        setFocus();
+        m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+        if (any)
+            focusPane(0);
+    }
     setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
     countDevices();
 }
@@ -248,13 +260,17 @@ void MainWindow::focusPane(int pane)
 void MainWindow::restoreParts()
 {
     m_layout->restore();
-    m_plots->restoreState(QSettings().value(PlotsKey).toByteArray());
+    const QSettings settings;
+    m_plots->restoreState(settings.value(PlotsKey).toByteArray());
+    m_table->restoreState(settings.value(TableKey).toByteArray());
 }
 
 void MainWindow::saveParts() const
 {
     m_layout->save();
-    QSettings().setValue(PlotsKey, m_plots->saveState());
+    QSettings settings;
+    settings.setValue(PlotsKey, m_plots->saveState());
+    settings.setValue(TableKey, m_table->saveState());
 }
 
 void MainWindow::closeEvent(QCloseEvent *event)

@@ -37,7 +37,7 @@ SerialLine::SerialLine(QString name, posix::PortGuard guard)
 
 SerialLine::~SerialLine() = default;
 
-Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int baudRate, const Options &options)
+Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int baudRate, const SerialOptions &options)
 {
     Result<posix::PortGuard> guard = posix::PortGuard::take(name);
     if (!guard)
@@ -48,7 +48,7 @@ Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int ba
     return line;
 }
 
-Result<void> SerialLine::start(int baudRate, const Options &options)
+Result<void> SerialLine::start(int baudRate, const SerialOptions &options)
 {
     m_port->setPortName(m_guard.path());
     m_port->setBaudRate(57600);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/linefactory.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/bus/serialport_posix.h"
-
-#include <optional>
 
 QT_BEGIN_NAMESPACE
 class QSerialPort;
@@ -17,14 +15,8 @@ namespace dynascope {
 class SerialLine final : public Line
 {
 public:
-    struct Options {
-        /// How late an answer may come on account of the host. Default by kind: a pseudo-terminal 50 ms; else what the
-        /// adapter holds bytes back, 16 ms where that isn't known, and 5 ms of scheduling.
-        std::optional<LineTime> hostAllowance;
-    };
-
     /// Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
-    static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const Options &options);
+    static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const SerialOptions &options);
     ~SerialLine() override;
 
     QString name() const override { return m_name; }
@@ -39,7 +31,7 @@ public:
 private:
     SerialLine(QString name, posix::PortGuard guard);
 
-    Result<void> start(int baudRate, const Options &options);
+    Result<void> start(int baudRate, const SerialOptions &options);
     Result<void> lose();
     bool isFine();
     bool take(Bytes &buffer);
@@ -50,26 +42,6 @@ private:
     int m_baudRate = 57600;
     LineTime m_hostAllowance{};
     bool m_lost = false;
-};
-
-/// Opens serial ports by their path.
-class SerialLineFactory final : public LineFactory
-{
-public:
-    explicit SerialLineFactory(SerialLine::Options options = {}) : m_options(options) { }
-
-    bool knows(const QString &name) const override;
-    Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;
-
-private:
-    const SerialLine::Options m_options;
-};
-
-/// The machine's serial ports, likely adapters first.
-class SerialPortList final : public PortList
-{
-public:
-    std::vector<PortInfo> ports() const override;
 };
 
 } // namespace dynascope

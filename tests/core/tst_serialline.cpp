@@ -114,7 +114,7 @@ private slots:
     {
         PtyMaster wire;
         QCOMPARE(open(wire.path())->hostAllowance(), LineTime(50ms));
-        SerialLine::Options options;
+        SerialOptions options;
         options.hostAllowance = 200ms;
         QCOMPARE((*SerialLine::open(wire.path(), 57600, options))->hostAllowance(), LineTime(200ms));
     }

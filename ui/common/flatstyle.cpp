@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/flatstyle.h"
 
+#include "ui/common/flatcontrols.h"
 #include "ui/common/theme.h"
 
+#include <QFrame>
 #include <QPainter>
 #include <QStyleOption>
 
@@ -10,31 +12,14 @@ namespace dynascope {
 
 namespace {
 
-constexpr qreal Radius = 4;
+constexpr int IconGap = 7;
 
-/// A rounded box whose 1-pixel border lies inside `rect`.
-void drawBox(QPainter *painter, const QRect &rect, const QColor &fill, const QColor &border)
+/// Buttons show the focus only where the keyboard brought it.
+QColor plainBorder(const QStyleOption *option)
 {
-    painter->save();
-    painter->setRenderHint(QPainter::Antialiasing);
-    painter->setPen(border.isValid() ? QPen(border, 1) : QPen(Qt::NoPen));
-    painter->setBrush(fill.isValid() ? QBrush(fill) : QBrush(Qt::NoBrush));
-    painter->drawRoundedRect(QRectF(rect).adjusted(0.5, 0.5, -0.5, -0.5), Radius, Radius);
-    painter->restore();
-}
-
-/// `share` of `over` on `under`.
-QColor blend(const QColor &under, const QColor &over, float share)
-{
-    return QColor::fromRgbF(under.redF() + (over.redF() - under.redF()) * share,
-                            under.greenF() + (over.greenF() - under.greenF()) * share,
-                            under.blueF() + (over.blueF() - under.blueF()) * share);
-}
-
-QColor borderColor(const QStyleOption *option)
-{
-    const bool enabled = option->state & QStyle::State_Enabled;
-    return enabled ? option->palette.color(QPalette::Mid) : colors(option->palette).border;
+    QStyleOption copy = *option;
+    copy.state &= ~QStyle::State_HasFocus;
+    return controlBorder(copy);
 }
 
 QColor buttonFill(const QStyleOption *option)
@@ -62,7 +47,7 @@ void drawPushButton(const QStyleOption *option, QPainter *painter)
     if (flat && plain && !focused)
         return;
     const bool isDefault = button && (button->features & QStyleOptionButton::DefaultButton);
-    QColor border = flat ? QColor() : borderColor(option);
+    QColor border = flat ? QColor() : plainBorder(option);
     if (focused || (isDefault && (option->state & QStyle::State_Enabled)))
         border = colors(option->palette).accent;
     drawBox(painter, option->rect, buttonFill(option), border);
@@ -79,16 +64,10 @@ void drawToolButton(const QStyleOption *option, QPainter *painter)
     QStyleOption copy = *option;
     if (!raised)
         copy.palette.setColor(QPalette::Button, option->palette.color(QPalette::Window));
-    QColor border = raised ? borderColor(option) : QColor();
+    QColor border = raised ? plainBorder(option) : QColor();
     if (focused)
         border = colors(option->palette).accent;
     drawBox(painter, option->rect, buttonFill(&copy), border);
-}
-
-void drawField(const QStyleOption *option, QPainter *painter)
-{
-    const bool focused = option->state & QStyle::State_HasFocus;
-    drawBox(painter, option->rect, QColor(), focused ? colors(option->palette).accent : borderColor(option));
 }
 
 void drawHeaderSection(const QStyleOption *option, QPainter *painter)
@@ -105,6 +84,24 @@ void drawHeaderSection(const QStyleOption *option, QPainter *painter)
         painter->fillRect(QRect(rect.right(), rect.top() + 4, 1, rect.height() - 8), theme.border);
 }
 
+/// Icon and text in the middle with a gap that shows; Fusion lets them touch.
+void drawPushButtonLabel(const QStyleOptionButton &button, QPainter *painter, const QStyle &style)
+{
+    const bool enabled = button.state & QStyle::State_Enabled;
+    const QFontMetrics metrics(button.fontMetrics);
+    const int textWidth = metrics.size(Qt::TextShowMnemonic, button.text).width();
+    const int gap = button.text.isEmpty() ? 0 : IconGap;
+    int left = button.rect.center().x() - (button.iconSize.width() + gap + textWidth) / 2 + 1;
+    const QRect iconRect(QPoint(left, button.rect.center().y() - button.iconSize.height() / 2 + 1), button.iconSize);
+    button.icon.paint(painter, QStyle::visualRect(button.direction, button.rect, iconRect), Qt::AlignCenter,
+                      enabled ? QIcon::Normal : QIcon::Disabled);
+    left += button.iconSize.width() + gap;
+    const QRect textRect(left, button.rect.top(), textWidth + 2, button.rect.height());
+    style.drawItemText(painter, QStyle::visualRect(button.direction, button.rect, textRect),
+                       Qt::AlignVCenter | Qt::AlignLeft | Qt::TextShowMnemonic, button.palette, enabled, button.text,
+                       QPalette::ButtonText);
+}
+
 } // namespace
 
 FlatStyle::FlatStyle()
@@ -118,7 +115,7 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
     switch (element) {
     case PE_PanelButtonCommand: drawPushButton(option, painter); return;
     case PE_PanelButtonTool: drawToolButton(option, painter); return;
-    case PE_FrameLineEdit: drawField(option, painter); return;
+    case PE_FrameLineEdit: drawBox(painter, option->rect, QColor(), controlBorder(*option)); return;
     case PE_Frame: {
         const auto *frame = qstyleoption_cast<const QStyleOptionFrame *>(option);
         if (!frame || frame->lineWidth <= 0)
@@ -159,9 +156,58 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption *option, 
         painter->fillRect(option->rect, (option->state & State_MouseOver) ? theme.accent : theme.border);
         return;
     }
-    case CE_ToolBar: painter->fillRect(option->rect, option->palette.color(QPalette::Window)); return;
-    default: QProxyStyle::drawControl(element, option, painter, widget);
+    case CE_PushButtonLabel: {
+        const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
+        if (!button || button->icon.isNull() || (button->features & QStyleOptionButton::HasMenu))
+            break;
+        drawPushButtonLabel(*button, painter, *this);
+        return;
     }
+    case CE_ShapedFrame: {
+        const auto *frame = qstyleoption_cast<const QStyleOptionFrame *>(option);
+        if (!frame || (frame->frameShape != QFrame::HLine && frame->frameShape != QFrame::VLine))
+            break;
+        const QPoint centre = frame->rect.center();
+        const bool across = frame->frameShape == QFrame::HLine;
+        painter->fillRect(across ? QRect(frame->rect.left(), centre.y(), frame->rect.width(), 1)
+                                 : QRect(centre.x(), frame->rect.top(), 1, frame->rect.height()),
+                          colors(option->palette).border);
+        return;
+    }
+    case CE_ToolBar: painter->fillRect(option->rect, option->palette.color(QPalette::Window)); return;
+    default: break;
+    }
+    QProxyStyle::drawControl(element, option, painter, widget);
+}
+
+void FlatStyle::drawComplexControl(ComplexControl control, const QStyleOptionComplex *option, QPainter *painter,
+                                   const QWidget *widget) const
+{
+    if (const auto *combo = qstyleoption_cast<const QStyleOptionComboBox *>(option); combo && control == CC_ComboBox)
+        return drawComboBox(*combo, painter, *this);
+    if (const auto *spin = qstyleoption_cast<const QStyleOptionSpinBox *>(option); spin && control == CC_SpinBox)
+        return drawSpinBox(*spin, painter, *this);
+    if (const auto *bar = qstyleoption_cast<const QStyleOptionSlider *>(option); bar && control == CC_ScrollBar)
+        return drawScrollBar(*bar, painter);
+    QProxyStyle::drawComplexControl(control, option, painter, widget);
+}
+
+QRect FlatStyle::subControlRect(ComplexControl control, const QStyleOptionComplex *option, SubControl part,
+                                const QWidget *widget) const
+{
+    if (const auto *bar = qstyleoption_cast<const QStyleOptionSlider *>(option); bar && control == CC_ScrollBar)
+        return scrollBarRect(*bar, part);
+    return QProxyStyle::subControlRect(control, option, part, widget);
+}
+
+QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption *option, const QSize &size,
+                                  const QWidget *widget) const
+{
+    QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
+    const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
+    if (type == CT_PushButton && button && !button->icon.isNull() && !button->text.isEmpty())
+        result.rwidth() += IconGap + 2;
+    return result;
 }
 
 int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const QWidget *widget) const

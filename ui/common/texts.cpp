@@ -72,8 +72,8 @@ QString deviceStateText(const Device &device)
     switch (device.state()) {
     case Device::State::Present: break;
     case Device::State::Parked:
-        return tr("Parked at %1, last heard %2").arg(baudText(device.baudRate()), agoText(device.lastHeard()));
-    case Device::State::Silent: return tr("Does not answer, last heard %1").arg(agoText(device.lastHeard()));
+        return tr("Parked, heard %1").arg(agoText(device.lastHeard()));
+    case Device::State::Silent: return tr("Silent, heard %1").arg(agoText(device.lastHeard()));
     case Device::State::Rebooting: return tr("Rebooting…");
     }
     if (!device.doubt().isEmpty())
@@ -84,6 +84,21 @@ QString deviceStateText(const Device &device)
     if (!torque)
         return tr("Present");
     return *torque != 0 ? tr("Torque on") : tr("Torque off");
+}
+
+QString deviceStateHelp(const Device &device)
+{
+    switch (device.state()) {
+    case Device::State::Parked:
+        return tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
+            .arg(baudText(device.baudRate()), agoText(device.lastHeard()));
+    case Device::State::Silent:
+        return tr("It does not answer; last heard %1. Is it powered, and still at this ID and baud rate?")
+            .arg(agoText(device.lastHeard()));
+    case Device::State::Present:
+    case Device::State::Rebooting: break;
+    }
+    return {};
 }
 
 QString alertText(const Device &device)

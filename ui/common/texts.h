@@ -11,8 +11,10 @@ QString portText(const QString &name);  ///< "Simulated bus" for "sim", else the
 
 /// What a line does, in words: "Connected to /dev/ttyUSB0 at 1 Mbps".
 QString lineStateText(const LineSession &line);
-/// What a device does, in words: "Torque on", "Parked at 57 600 bps, last heard 3 min ago".
+/// What a device does, in a few words: "Torque on", "Parked, heard 3 min ago".
 QString deviceStateText(const Device &device);
+/// The same as a sentence that says what follows from it; empty where the words say all.
+QString deviceStateHelp(const Device &device);
 /// Names of the latched hardware errors; empty without an alert.
 QString alertText(const Device &device);
 

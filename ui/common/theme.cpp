@@ -16,7 +16,9 @@ namespace dynascope {
 
 namespace {
 
-const QString SchemeKey = QStringLiteral("window/scheme"); ///< 0 as the system, 1 light, 2 dark
+const QString SchemeKey = QStringLiteral("window/scheme");
+const QString LightName = QStringLiteral("light");
+const QString DarkName = QStringLiteral("dark");
 
 /// The colours one palette is made of.
 struct Tones {
@@ -102,10 +104,11 @@ constexpr std::size_t RoundCount = 3; ///< a hue comes again darker or lighter b
 
 using TraceTable = std::array<QColor, HueCount * RoundCount>;
 
-/// Moves the lightness away from the background until a thin line shows on it (WCAG 1.4.11: 3:1).
+/// Moves the lightness away from the background until a thin line shows on it (WCAG 1.4.11 asks for 3:1; on a dark
+/// ground a thin line needs more).
 QColor readable(QColor color, const QColor &background, bool dark)
 {
-    for (int i = 0; i < 60 && contrastRatio(color, background) < 3.0; ++i) {
+    for (int i = 0; i < 60 && contrastRatio(color, background) < (dark ? 4.5 : 3.0); ++i) {
         const float lightness = color.lightnessF() + (dark ? 0.02F : -0.02F);
         color = QColor::fromHslF(color.hslHueF(), color.hslSaturationF(), qBound(0.0F, lightness, 1.0F));
     }
@@ -162,13 +165,17 @@ void applyTheme(QApplication &application, ColorScheme scheme)
 
 ColorScheme savedColorScheme()
 {
-    const int saved = QSettings().value(SchemeKey).toInt();
-    return saved == 1 ? ColorScheme::Light : saved == 2 ? ColorScheme::Dark : ColorScheme::System;
+    const QString saved = QSettings().value(SchemeKey).toString();
+    if (saved == LightName)
+        return ColorScheme::Light;
+    return saved == DarkName ? ColorScheme::Dark : ColorScheme::System;
 }
 
 void saveColorScheme(ColorScheme scheme)
 {
-    QSettings().setValue(SchemeKey, static_cast<int>(scheme));
+    QSettings().setValue(SchemeKey, scheme == ColorScheme::Light ? LightName
+                             : scheme == ColorScheme::Dark       ? DarkName
+                                                                 : QStringLiteral("system"));
 }
 
 const ThemeColors &colors(const QPalette &palette)

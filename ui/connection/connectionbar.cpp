@@ -12,6 +12,7 @@
 #include "ui/connection/scanoptions.h"
 #include "ui/connection/stopbutton.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -29,7 +30,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     , m_port(new PortCombo(workbench.ports, this))
     , m_baud(new BaudCombo(this))
     , m_connect(new QPushButton(this))
-    , m_scan(new QToolButton(this))
+    , m_scan(new QPushButton(this))
     , m_scanMore(new QToolButton(this))
     , m_status(new QStackedWidget(this))
     , m_state(new ElidedLabel(this))
@@ -47,6 +48,12 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     addAll();
 
     connect(m_port, &PortCombo::portChanged, this, &ConnectionBar::update);
+    const auto showUsualBaud = [this] {
+        if (!currentLine())
+            m_baud->setBaudRate(Connector::lastBaudRate(m_port->port()));
+    };
+    connect(m_port, &QComboBox::activated, this, showUsualBaud);
+    showUsualBaud();
     connect(m_port->lineEdit(), &QLineEdit::returnPressed, this, [this] {
         if (!currentLine())
             toggleConnection();
@@ -54,7 +61,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     connect(m_baud, &BaudCombo::baudRateChosen, this, &ConnectionBar::onBaudChosen);
     connect(m_baud, &QComboBox::editTextChanged, this, &ConnectionBar::update);
     connect(m_connect, &QPushButton::clicked, this, &ConnectionBar::toggleConnection);
-    connect(m_scan, &QToolButton::clicked, this, &ConnectionBar::startScan);
+    connect(m_scan, &QPushButton::clicked, this, &ConnectionBar::startScan);
     connect(m_scanMore, &QToolButton::clicked, this, &ConnectionBar::showScanOptions);
     connect(m_cancel, &QToolButton::clicked, &connector, &Connector::cancelScan);
     connect(m_options, &ScanOptions::scanRequested, this, &ConnectionBar::startScan);
@@ -71,11 +78,11 @@ void ConnectionBar::makeButtons()
     m_scan->setObjectName(QStringLiteral("scanButton"));
     m_scan->setText(tr("Scan"));
     m_scan->setIcon(icon(QStringLiteral("scan")));
-    m_scan->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     m_scan->setToolTip(tr("Look for devices at the likely baud rates (Ctrl+R); the arrow chooses rates and IDs"));
     m_scanMore->setObjectName(QStringLiteral("scanOptionsButton"));
     m_scanMore->setIcon(icon(QStringLiteral("chevron-down")));
     m_scanMore->setIconSize(QSize(14, 14));
+    m_scanMore->setAutoRaise(false); // a child of a tool bar begins raised
     m_scanMore->setToolTip(tr("Choose baud rates and IDs to scan (Ctrl+Shift+R)"));
     m_scanMore->setAccessibleName(tr("Scan options"));
 
@@ -122,7 +129,7 @@ void ConnectionBar::addAll()
     layout->addWidget(m_baud);
     layout->addWidget(m_connect);
     auto *scan = new QHBoxLayout;
-    scan->setSpacing(1);
+    scan->setSpacing(2);
     scan->addWidget(m_scan);
     scan->addWidget(m_scanMore);
     layout->addLayout(scan);
@@ -215,6 +222,13 @@ void ConnectionBar::update()
     }
     m_shown = open ? line : nullptr;
     emit currentLineChanged();
+}
+
+void ConnectionBar::changeEvent(QEvent *event)
+{
+    if (event->type() == QEvent::PaletteChange)
+        update(); // a label keeps its picture
+    QToolBar::changeEvent(event);
 }
 
 void ConnectionBar::updateScan()

@@ -41,6 +41,9 @@ public slots:
 signals:
     void currentLineChanged();
 
+protected:
+    void changeEvent(QEvent *event) override;
+
 private:
     void makeButtons();
     void addAll();
@@ -53,7 +56,7 @@ private:
     PortCombo *m_port;
     BaudCombo *m_baud;
     QPushButton *m_connect;
-    QToolButton *m_scan;
+    QPushButton *m_scan;
     QToolButton *m_scanMore;
     QStackedWidget *m_status;
     ElidedLabel *m_state;

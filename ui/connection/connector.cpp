@@ -6,6 +6,7 @@
 
 #include <QFileInfo>
 #include <QSettings>
+#include <QUrl>
 
 #include <algorithm>
 #include <chrono>
@@ -20,8 +21,13 @@ constexpr auto RetryInterval = 1s;
 constexpr int MostRecent = 6;
 
 const QString PortKey = QStringLiteral("connection/port");
-const QString BaudKey = QStringLiteral("connection/baud");
 const QString RecentKey = QStringLiteral("connection/recent");
+
+/// A path has slashes, which would make groups of settings.
+QString baudKey(const QString &port)
+{
+    return QStringLiteral("connection/baudOf/") + QString::fromLatin1(QUrl::toPercentEncoding(port));
+}
 
 } // namespace
 
@@ -202,10 +208,12 @@ QString Connector::lastPort()
     return QSettings().value(PortKey).toString();
 }
 
-int Connector::lastBaudRate()
+int Connector::lastBaudRate(const QString &port)
 {
-    const int baud = QSettings().value(BaudKey).toInt();
-    return baud > 0 ? baud : 57600;
+    const int baud = QSettings().value(baudKey(port)).toInt();
+    if (baud > 0)
+        return baud;
+    return port == QStringLiteral("sim") ? 1'000'000 : 57600;
 }
 
 QStringList Connector::recentPorts()
@@ -217,7 +225,7 @@ void Connector::remember(const QString &port, int baudRate)
 {
     QSettings settings;
     settings.setValue(PortKey, port);
-    settings.setValue(BaudKey, baudRate);
+    settings.setValue(baudKey(port), baudRate);
     QStringList recent = settings.value(RecentKey).toStringList();
     recent.removeAll(port);
     recent.prepend(port);

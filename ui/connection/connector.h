@@ -31,7 +31,7 @@ public:
     /// @name What was opened last, for the next start
     /// @{
     static QString lastPort();
-    static int lastBaudRate();
+    static int lastBaudRate(const QString &port); ///< 57 600, on the simulated bus 1 M, where it never was open
     static QStringList recentPorts(); ///< newest first
     /// @}
 

@@ -234,13 +234,23 @@ void DeviceActions::rename()
 
 void DeviceActions::changeId()
 {
-    if (Device *device = single())
+    openChangeId(single());
+}
+
+void DeviceActions::openChangeId(Device *device)
+{
+    if (device)
         open(new ChangeIdDialog(*device, m_workbench.commands, m_window));
 }
 
 void DeviceActions::changeBaud()
 {
-    if (Device *device = single())
+    openChangeBaud(single());
+}
+
+void DeviceActions::openChangeBaud(Device *device)
+{
+    if (device)
         open(new ChangeBaudDialog(*device, m_workbench.commands, m_window));
 }
 

@@ -23,6 +23,8 @@ public:
     /// `baudRate` of `line` is what "Work at this baud" moves to; 0 where nothing suitable is selected.
     void setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate);
     void update(); ///< a device's state changed
+    void openChangeId(Device *device);
+    void openChangeBaud(Device *device);
 
     /// In the order of a menu; nullptr stands for a separator.
     std::vector<QAction *> menuActions() const;

@@ -61,7 +61,8 @@ QVariant DeviceTreeModel::deviceData(const Device &device, int role) const
     case Qt::ToolTipRole: {
         QStringList lines{tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate()))};
         lines << tr("%1, firmware %2").arg(device.model()).arg(device.firmware());
-        lines << deviceStateText(device);
+        const QString help = deviceStateHelp(device);
+        lines << (help.isEmpty() ? deviceStateText(device) : help);
         if (device.alert())
             lines << tr("Hardware error: %1").arg(alertText(device));
         if (!device.doubt().isEmpty())

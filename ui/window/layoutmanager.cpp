@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/layoutmanager.h"
 
+#include <QEvent>
 #include <QMainWindow>
 #include <QScreen>
 #include <QSettings>
@@ -18,6 +19,8 @@ const QString GeometryKey = QStringLiteral("window/geometry");
 const QString OuterKey = QStringLiteral("window/outer");
 const QString RightKey = QStringLiteral("window/plotsRight");
 const QString BelowKey = QStringLiteral("window/plotsBelow");
+const QString RightName = QStringLiteral("right");
+const QString BelowName = QStringLiteral("below");
 const QString PlaceKey = QStringLiteral("window/plotPlace");
 
 } // namespace
@@ -34,10 +37,26 @@ LayoutManager::LayoutManager(QMainWindow &window, QSplitter &outer, QSplitter &i
     m_outer.setStretchFactor(1, 1);
     m_inner.setStretchFactor(0, 1);
     m_inner.setStretchFactor(1, 1);
+    window.installEventFilter(this);
+}
+
+PlotPlace LayoutManager::fitting() const
+{
+    return m_window.width() < WideEnough ? PlotPlace::Below : PlotPlace::Right;
+}
+
+bool LayoutManager::eventFilter(QObject *watched, QEvent *event)
+{
+    if (watched == &m_window && event->type() == QEvent::Resize && !m_chosen && fitting() != m_place) {
+        storeInner();
+        apply(fitting());
+    }
+    return QObject::eventFilter(watched, event);
 }
 
 void LayoutManager::setPlotPlace(PlotPlace place)
 {
+    m_chosen = true;
     if (place == m_place)
         return;
     storeInner();
@@ -84,8 +103,8 @@ void LayoutManager::restore()
     m_right = settings.value(RightKey).toByteArray();
     m_below = settings.value(BelowKey).toByteArray();
     const QString place = settings.value(PlaceKey).toString();
-    const bool below = place == QStringLiteral("below") || (place.isEmpty() && m_window.width() < WideEnough);
-    apply(below ? PlotPlace::Below : PlotPlace::Right);
+    m_chosen = place == RightName || place == BelowName;
+    apply(!m_chosen ? fitting() : place == BelowName ? PlotPlace::Below : PlotPlace::Right);
 }
 
 void LayoutManager::save() const
@@ -95,18 +114,19 @@ void LayoutManager::save() const
     settings.setValue(OuterKey, m_outer.saveState());
     settings.setValue(RightKey, m_place == PlotPlace::Right ? m_inner.saveState() : m_right);
     settings.setValue(BelowKey, m_place == PlotPlace::Below ? m_inner.saveState() : m_below);
-    settings.setValue(PlaceKey, m_place == PlotPlace::Right ? QStringLiteral("right") : QStringLiteral("below"));
+    settings.setValue(PlaceKey, !m_chosen ? QString() : m_place == PlotPlace::Right ? RightName : BelowName);
 }
 
 void LayoutManager::reset()
 {
+    m_chosen = false;
     m_right.clear();
     m_below.clear();
     if (!m_window.isMaximized() && !m_window.isFullScreen())
         setDefaultSizes();
     else
         m_outer.setSizes({DevicesWidth, m_window.width() - DevicesWidth});
-    apply(m_window.width() < WideEnough ? PlotPlace::Below : PlotPlace::Right);
+    apply(fitting());
 }
 
 } // namespace dynascope

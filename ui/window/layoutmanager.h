@@ -20,10 +20,12 @@ public:
     LayoutManager(QMainWindow &window, QSplitter &outer, QSplitter &inner);
 
     PlotPlace plotPlace() const { return m_place; }
-    void setPlotPlace(PlotPlace place);
+    void setPlotPlace(PlotPlace place); ///< by a person; until then the window's width decides
     void restore();
     void save() const;
     void reset(); ///< as at the first start
+
+    bool eventFilter(QObject *watched, QEvent *event) override;
 
 signals:
     void plotPlaceChanged();
@@ -32,11 +34,13 @@ private:
     void apply(PlotPlace place);
     void storeInner();
     void setDefaultSizes();
+    PlotPlace fitting() const;
 
     QMainWindow &m_window;
     QSplitter &m_outer;
     QSplitter &m_inner;
     PlotPlace m_place = PlotPlace::Right;
+    bool m_chosen = false;
     QByteArray m_right, m_below; ///< the inner splitter's state at either place
 };
 
