@@ -11,7 +11,8 @@
 
 using namespace dynascope;
 
-/// The panel as a picture, into the folder DYNASCOPE_PICTURES if that is set. What can be checked without eyes is checked.
+/// The panel as a picture, into the folder DYNASCOPE_PICTURES if that is set. What can be checked without eyes is
+/// checked.
 class TestTableLook : public QObject
 {
     Q_OBJECT
