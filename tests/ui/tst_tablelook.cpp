@@ -6,6 +6,7 @@
 #include "ui/table/tableview.h"
 
 #include <QDir>
+#include <QLabel>
 #include <QLineEdit>
 #include <QToolButton>
 
@@ -79,6 +80,8 @@ private slots:
 
         Device *unknown = fixture.add(9, 4711);
         panel.setDevices({unknown});
+        const auto *text = panel.findChild<QLabel *>(QStringLiteral("tableEmptyText"));
+        QVERIFY(text->height() >= text->heightForWidth(text->width())); // nothing cut off
         save(panel, QStringLiteral("table-unknown"), wanted);
     }
 
