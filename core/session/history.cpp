@@ -52,10 +52,7 @@ History::Extremes History::Chunk::extremes(std::size_t from, std::size_t to) con
     return result;
 }
 
-History::History(std::size_t capacity)
-    : m_capacity(std::max<std::size_t>(capacity, 1))
-{
-}
+History::History(std::size_t capacity) : m_capacity(std::max<std::size_t>(capacity, 1)) { }
 
 void History::addChunk()
 {

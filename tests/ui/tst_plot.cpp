@@ -148,7 +148,8 @@ private slots:
         History current;
         position.append(1s, 100);
         current.append(1s, -7);
-        std::vector traces{traceOf(position, QStringLiteral("°")), traceOf(current), traceOf(position, QStringLiteral("°"))};
+        std::vector traces{
+            traceOf(position, QStringLiteral("°")), traceOf(current), traceOf(position, QStringLiteral("°"))};
         traces[0].scale = 0.5;
         PlotScales scales;
         scales.setTraces(traces);
@@ -295,9 +296,11 @@ private slots:
         History history;
         for (int i = 0; i < 100; ++i)
             history.append(10ms * i, i % 2 == 0 ? 2'000'000'000 : -2'000'000'000);
-        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {0, 1, 1, 0}, 2), QStringList({QStringLiteral("#"), QStringLiteral("#")}));
+        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {0, 1, 1, 0}, 2),
+            QStringList({QStringLiteral("#"), QStringLiteral("#")}));
         QCOMPARE(painted(traceOf(history), {10ms, 0, 100, {}}, {0, 1, 1, 0}, 2).size(), 2);
-        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {3e9, 4e9, 1, 0}, 2), QStringList({QStringLiteral("."), QStringLiteral(".")}));
+        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {3e9, 4e9, 1, 0}, 2),
+            QStringList({QStringLiteral("."), QStringLiteral(".")}));
     }
 
     void scrolledPictureIsTheWholeOne_data()
@@ -339,7 +342,8 @@ private slots:
             const QImage &image = scrolled.paint(items, view, 100);
             TraceImage fresh;
             const QImage &whole = fresh.paint(items, view, 100);
-            QCOMPARE(QStringLiteral("frame %1: ").arg(frame) + difference(image, whole), QStringLiteral("frame %1: ").arg(frame));
+            QCOMPARE(QStringLiteral("frame %1: ").arg(frame) + difference(image, whole),
+                QStringLiteral("frame %1: ").arg(frame));
         }
     }
 
@@ -377,11 +381,12 @@ private slots:
         QBuffer buffer;
         buffer.open(QIODevice::WriteOnly);
         writeCsv(buffer, traces, 10s + 1ms, 20s);
-        QCOMPARE(QString::fromUtf8(buffer.data()), QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
-                                                   "0.000000,50.0,\n"
-                                                   "0.010000,100.0,-3\n"
-                                                   "0.015000,,-4\n"
-                                                   "0.020000,150.0,\n"));
+        QCOMPARE(QString::fromUtf8(buffer.data()),
+            QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
+                           "0.000000,50.0,\n"
+                           "0.010000,100.0,-3\n"
+                           "0.015000,,-4\n"
+                           "0.020000,150.0,\n"));
     }
 
     void unwritableFileIsSaid()

@@ -20,8 +20,8 @@ std::span<const History::Column> ColumnCache::columns(const History &history, co
         const auto moved = static_cast<std::ptrdiff_t>(view.firstColumn - m_view.firstColumn);
         std::move(m_columns.begin() + moved, m_columns.end(), m_columns.begin());
         // More may have come into the column of what was the newest sample, never before it.
-        firstStale = std::clamp<std::int64_t>(m_mark.last.at / view.step, view.firstColumn,
-                                              m_view.firstColumn + m_view.columns);
+        firstStale =
+            std::clamp<std::int64_t>(m_mark.last.at / view.step, view.firstColumn, m_view.firstColumn + m_view.columns);
     } else {
         m_columns.resize(static_cast<std::size_t>(view.columns));
     }

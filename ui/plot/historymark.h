@@ -5,8 +5,8 @@
 
 namespace dynascope {
 
-/// How far a history had come when last looked at. Tells whether it has only grown since, or is another one now: emptied
-/// and perhaps filled again.
+/// How far a history had come when last looked at. Tells whether it has only grown since, or is another one now:
+/// emptied and perhaps filled again.
 struct HistoryMark {
     std::uint64_t appended = 0;
     History::Sample last;

@@ -10,7 +10,7 @@ namespace dynascope {
 namespace {
 
 constexpr double LineDensity = 2; ///< samples per column up to which each is drawn for itself
-constexpr int Overlap = 8; ///< columns into which a sample's dot or a line's edge reaches
+constexpr int Overlap = 8;        ///< columns into which a sample's dot or a line's edge reaches
 constexpr double DotSpacing = 10; ///< pixels between samples from which on each gets a dot
 
 /// Raw value → pixels from the upper edge.
@@ -26,6 +26,35 @@ struct Vertical {
     }
     float operator()(std::int32_t raw) const { return static_cast<float>(raw) * factor + offset; }
 };
+
+/// Do the samples of this column go one way, the way they came and go on? Then they are as good as a line.
+bool isSlope(std::span<const History::Column> columns, int x)
+{
+    const auto at = static_cast<std::size_t>(x);
+    if (at == 0 || at + 1 >= columns.size() || columns[at - 1].isEmpty || columns[at + 1].isEmpty)
+        return false;
+    const History::Column &column = columns[at];
+    const std::int32_t from = columns[at - 1].last;
+    const std::int32_t to = columns[at + 1].first;
+    const bool rises = from <= column.first && column.first == column.minimum && column.last == column.maximum;
+    const bool falls = from >= column.first && column.first == column.maximum && column.last == column.minimum;
+    return (rises && column.last <= to) || (falls && column.last >= to);
+}
+
+/// A steep line's edge reaches into the columns beside it, yet not past its own end.
+ColumnRaster::Limits limitsAround(
+    std::span<const History::Column> columns, int x, const Vertical &vertical, ColumnRaster::Limits limits, float half)
+{
+    for (const int beside : {x - 1, x + 1}) {
+        if (beside < 0 || beside >= static_cast<int>(columns.size())
+            || columns[static_cast<std::size_t>(beside)].isEmpty)
+            continue;
+        const float one = vertical(columns[static_cast<std::size_t>(beside)].minimum);
+        const float other = vertical(columns[static_cast<std::size_t>(beside)].maximum);
+        limits = {std::min({limits.top, one, other}), std::max({limits.bottom, one, other})};
+    }
+    return {limits.top - half, limits.bottom + half};
+}
 
 QColor colorOf(const TraceData &trace)
 {
@@ -60,7 +89,7 @@ bool TraceImage::Painted::looksAs(const Painted &other) const
 {
     return std::tie(history, scale, offset, color, isDrawn, isOnTop, asLines, hasDots, thickness, range)
         == std::tie(other.history, other.scale, other.offset, other.color, other.isDrawn, other.isOnTop, other.asLines,
-                    other.hasDots, other.thickness, other.range);
+            other.hasDots, other.thickness, other.range);
 }
 
 /// The column from which on the picture differs from the last one, moved; 0: anywhere.
@@ -89,7 +118,8 @@ const QImage &TraceImage::paint(std::span<const Item> items, const TimeView &vie
         now.emplace_back(item, view, now.size() < m_painted.size() ? &m_painted[now.size()] : nullptr);
     m_first = firstToPaint(now, view, height);
     m_raster.resize(view.columns, height);
-    m_raster.scroll(static_cast<int>(std::clamp<std::int64_t>(view.firstColumn - m_view.firstColumn, 0, view.columns)), m_first);
+    m_raster.scroll(
+        static_cast<int>(std::clamp<std::int64_t>(view.firstColumn - m_view.firstColumn, 0, view.columns)), m_first);
     m_painted = std::move(now);
     m_view = view;
     m_caches.resize(items.size());
@@ -141,15 +171,18 @@ void TraceImage::paintColumns(const Item &item, std::span<const History::Column>
             for (int between = std::max(beforeAt + 1, m_first); between < x; ++between) {
                 const auto part = static_cast<float>(between - beforeAt);
                 m_raster.slope(between, from + (to - from) * (part - 0.5F) / distance,
-                               from + (to - from) * (part + 0.5F) / distance, item.thickness,
-                               {std::min(from, to) - half, std::max(from, to) + half});
+                    from + (to - from) * (part + 0.5F) / distance, item.thickness,
+                    {std::min(from, to) - half, std::max(from, to) + half});
             }
             // Meets the neighbour half-way, so that both share a jump.
             const float meeting = beforeAt == x - 1 ? from : from + (to - from) * (distance - 0.5F) / distance;
             top = std::min(top, meeting);
             bottom = std::max(bottom, meeting);
         }
-        m_raster.span(x, top - half, bottom + half);
+        if (isSlope(columns, x))
+            m_raster.slope(x, top, bottom, item.thickness, limitsAround(columns, x, vertical, {top, bottom}, half));
+        else
+            m_raster.span(x, top - half, bottom + half);
         before = &column;
         beforeAt = x;
     }
@@ -211,7 +244,7 @@ void TraceImage::strokePath(float thickness)
             m_raster.span(column, path.low - half, path.high + half);
             continue;
         }
-        // A steep line's edge reaches into the columns beside it, yet not past its own end.
+        // As in limitsAround().
         float low = path.low;
         float high = path.high;
         for (const std::size_t beside : {i - 1, i + 1}) {

@@ -19,8 +19,8 @@ public:
         bool isOnTop = false;
     };
 
-    /// As wide as the view has columns. The first item lies on top. While a view moves on and nothing else changes, only
-    /// the columns that new samples touch are painted; the rest is shifted.
+    /// As wide as the view has columns. The first item lies on top. While a view moves on and nothing else changes,
+    /// only the columns that new samples touch are painted; the rest is shifted.
     const QImage &paint(std::span<const Item> items, const TimeView &view, int height);
 
 private:
