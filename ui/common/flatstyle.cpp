@@ -127,6 +127,7 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
         return;
     }
     case PE_FrameStatusBarItem: return;
+    case PE_PanelScrollAreaCorner: painter->fillRect(option->rect, option->palette.color(QPalette::Base)); return;
     case PE_IndicatorToolBarSeparator: {
         const QRect &rect = option->rect;
         const ThemeColors &theme = colors(option->palette);
