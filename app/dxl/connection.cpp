@@ -2,7 +2,7 @@
 #include "app/dxl/connection.h"
 
 #include "app/dxl/options.h"
-#include "core/bus/serialline.h"
+#include "core/bus/seriallinefactory.h"
 
 #include <cstdio>
 
@@ -46,7 +46,8 @@ Error withAdvice(const Error &error, const Options &options)
     if (error.kind != ErrorKind::NothingReceived && error.kind != ErrorKind::NoHeader)
         return error;
     Error advised = error;
-    advised.text += QStringLiteral("; to look for it at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
+    advised.text += QStringLiteral(" at %1 bps; to look for it at every baud rate: dxl --port %2 scan --bauds all")
+                        .arg(QString::number(options.baudRate), options.port);
     return advised;
 }
 

@@ -23,18 +23,18 @@ struct Typed {
 };
 
 constexpr const char *Values =
-    "VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, 50%) or the "
+    "A VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, 50%) or the "
     "name of an enum value or of bits joined by '+'.";
 
 void describe(CLI::App &app, Typed &typed)
 {
     app.fallthrough(); // --port may also stand behind the command
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1);
     app.set_version_flag("--version", "dxl " DYNASCOPE_VERSION);
     app.add_option("--port", typed.port, "The line's port: /dev/ttyUSB0")->type_name("PATH");
     app.add_option("--baud", typed.baudRate, "The line's baud rate, bits per second (57600)")
         ->type_name("N")
-        ->check(CLI::Range(1, 100'000'000));
+        ->check(CLI::Range(1, 100'000'000).description({}));
     app.add_flag("--json", typed.json, "One JSON document on standard output");
     app.add_flag("-v,--verbose", typed.verbose, "Show every packet on standard error");
     app.footer("Exit code: 0 done, 1 a device or the line failed, 2 wrong usage.");
@@ -46,16 +46,22 @@ void describe(CLI::App &app, Typed &typed)
 
     const auto forDevice = [&](const char *name, const std::string &text) {
         CLI::App *command = app.add_subcommand(name, text);
-        command->add_option("ID", typed.id, "The device")->required()->check(CLI::Range(0, int(MaximumId)));
+        command->add_option("ID", typed.id, "The device, 0 to 252")
+            ->required()
+            ->type_name({})
+            ->check(CLI::Range(0, int(MaximumId)).description({}));
         return command;
     };
     forDevice("ping", "Is a device there, and what is it?");
     forDevice("read", "Read registers")
         ->add_option("REGISTER", typed.registers, "FIELD by its name in the control table, or ADDRESS:LENGTH in bytes")
-        ->required();
-    forDevice("write", std::string("Write registers and read them back. ") + Values)
+        ->required()
+        ->type_name({});
+    forDevice("write", "Write registers and read them back")
+        ->footer(Values)
         ->add_option("ASSIGNMENT", typed.registers, "FIELD=VALUE or ADDRESS:LENGTH=VALUE")
-        ->required();
+        ->required()
+        ->type_name({});
 
     CLI::App *sim = app.add_subcommand("sim", "Serve simulated devices on a pseudo-terminal until interrupted; its path "
                                               "is the first line of standard output");
@@ -68,6 +74,9 @@ void describe(CLI::App &app, Typed &typed)
 Result<Options> understand(const CLI::App &app, const Typed &typed)
 {
     Options options;
+    if (app.get_subcommands().empty())
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("say what to do: scan, ping, read, write or sim; dxl --help tells more"));
     const std::string name = app.get_subcommands().front()->get_name();
     options.command = name == "scan" ? Command::Scan
         : name == "ping"             ? Command::Ping

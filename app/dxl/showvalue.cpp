@@ -14,9 +14,12 @@ void showField(Output &output, Device &device, const Field &field, std::int64_t 
     document.add("id", qint64(device.id()))
         .add("field", field.name)
         .add("address", qint64(field.address))
-        .add("raw", qint64(raw))
-        .add("value", physical(units, resolution, raw).value)
-        .add("unit", unitId(units.unit));
+        .add("raw", qint64(raw));
+    if (units.unit == Unit::None && units.scale == 1.0)
+        document.add("value", qint64(raw));
+    else
+        document.add("value", physical(units, resolution, raw).value);
+    document.add("unit", unitId(units.unit));
     if (!named.isEmpty())
         document.add("meaning", named);
     const QString number = QString::number(raw);
@@ -54,7 +57,9 @@ ExitCode showFailure(Output &output, const Device &device, const RegisterArgumen
         document.add("field", argument.field);
     document.add("error", error.text);
     output.failedResult(document);
-    return output.fail(error);
+    Error named = error;
+    named.text = QStringLiteral("%1: %2").arg(argument.text(), error.text);
+    return output.fail(named);
 }
 
 } // namespace dynascope::dxl

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bus/linefactory.h"
-#include "core/bus/serialline.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/sim/demo.h"
 
 #include <memory>

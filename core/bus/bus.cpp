@@ -226,8 +226,12 @@ Result<void> Bus::listen(Collector &collector, const Request &request, Waiting &
                 collector.giveUp(now);
                 continue;
             }
-        } else if (now >= until) {
-            break;
+        } else {
+            // Somebody else's packet or noise held the wire when the answer was due.
+            if (collector.seen().bytesReceived > 0)
+                until = std::max(until, std::min(waiting.limit, waiting.lastByte + 10 * m_line.byteTime()));
+            if (now >= until)
+                break;
         }
         if (Result<void> read = receive(std::min(until, now + timing::Slice)); !read)
             return read;

@@ -3,6 +3,7 @@
 
 #include "core/bus/messages.h"
 
+#include <QSerialPort>
 #include <QSerialPortInfo>
 
 #include <algorithm>
@@ -32,10 +33,13 @@ LineTime defaultAllowance(const QString &path)
 SerialLine::SerialLine(QString name, posix::PortGuard guard)
     : m_name(std::move(name))
     , m_guard(std::move(guard))
+    , m_port(std::make_unique<QSerialPort>())
 {
 }
 
-Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int baudRate, const Options &options)
+SerialLine::~SerialLine() = default;
+
+Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int baudRate, const SerialOptions &options)
 {
     Result<posix::PortGuard> guard = posix::PortGuard::take(name);
     if (!guard)
@@ -46,22 +50,22 @@ Result<std::unique_ptr<SerialLine>> SerialLine::open(const QString &name, int ba
     return line;
 }
 
-Result<void> SerialLine::start(int baudRate, const Options &options)
+Result<void> SerialLine::start(int baudRate, const SerialOptions &options)
 {
-    m_port.setPortName(m_guard.path());
-    m_port.setBaudRate(57600);
-    if (!m_port.open(QIODevice::ReadWrite)) {
+    m_port->setPortName(m_guard.path());
+    m_port->setBaudRate(57600);
+    if (!m_port->open(QIODevice::ReadWrite)) {
         // The guard could open it: what is left is somebody's lock file, or a driver's own reason.
-        if (m_port.error() == QSerialPort::PermissionError)
+        if (m_port->error() == QSerialPort::PermissionError)
             return tl::unexpected(messages::portBusy(m_name, {}));
-        return tl::unexpected(messages::portFailed(m_name, m_port.errorString()));
+        return tl::unexpected(messages::portFailed(m_name, m_port->errorString()));
     }
-    m_port.setDataBits(QSerialPort::Data8);
-    m_port.setParity(QSerialPort::NoParity);
-    m_port.setStopBits(QSerialPort::OneStop);
-    m_port.setFlowControl(QSerialPort::NoFlowControl);
-    m_port.clearError();
-    posix::setLowLatency(static_cast<int>(m_port.handle())); // best effort: CDC-ACM adapters refuse it
+    m_port->setDataBits(QSerialPort::Data8);
+    m_port->setParity(QSerialPort::NoParity);
+    m_port->setStopBits(QSerialPort::OneStop);
+    m_port->setFlowControl(QSerialPort::NoFlowControl);
+    m_port->clearError();
+    posix::setLowLatency(static_cast<int>(m_port->handle())); // best effort: CDC-ACM adapters refuse it
     m_hostAllowance = options.hostAllowance.value_or(defaultAllowance(m_guard.path()));
     if (Result<void> set = setBaudRate(baudRate); !set)
         return set;
@@ -79,11 +83,11 @@ Result<void> SerialLine::write(ByteView packet)
     if (m_lost)
         return lose();
     const auto size = static_cast<qint64>(packet.size());
-    if (m_port.write(reinterpret_cast<const char *>(packet.data()), size) != size)
+    if (m_port->write(reinterpret_cast<const char *>(packet.data()), size) != size)
         return lose();
     // Into the kernel, not onto the wire.
-    while (m_port.bytesToWrite() > 0) {
-        if (!m_port.flush() && !m_port.waitForBytesWritten(WriteTimeout))
+    while (m_port->bytesToWrite() > 0) {
+        if (!m_port->flush() && !m_port->waitForBytesWritten(WriteTimeout))
             return lose();
         if (!isFine())
             return lose();
@@ -100,14 +104,14 @@ Result<void> SerialLine::read(Bytes &buffer, LineTime deadline)
             return {};
         const LineTime wait = std::max(LineTime(0), deadline - now());
         // QSerialPort waits in whole milliseconds; a reply may be due in a fraction of one.
-        switch (posix::waitReadable(static_cast<int>(m_port.handle()), wait)) {
+        switch (posix::waitReadable(static_cast<int>(m_port->handle()), wait)) {
         case posix::Wait::TimedOut:
             if (now() >= deadline)
                 return {};
             break;
         case posix::Wait::Readable:
             // Readable and yet nothing to read: the other end has hung up.
-            if (!m_port.waitForReadyRead(0) || !isFine()) {
+            if (!m_port->waitForReadyRead(0) || !isFine()) {
                 if (take(buffer))
                     return {};
                 return lose();
@@ -120,12 +124,12 @@ Result<void> SerialLine::read(Bytes &buffer, LineTime deadline)
 
 bool SerialLine::take(Bytes &buffer)
 {
-    const qint64 available = m_port.bytesAvailable();
+    const qint64 available = m_port->bytesAvailable();
     if (available <= 0)
         return false;
     const std::size_t before = buffer.size();
     buffer.resize(before + static_cast<std::size_t>(available));
-    const qint64 got = m_port.read(reinterpret_cast<char *>(buffer.data() + before), available);
+    const qint64 got = m_port->read(reinterpret_cast<char *>(buffer.data() + before), available);
     buffer.resize(before + static_cast<std::size_t>(std::max<qint64>(0, got)));
     return got > 0;
 }
@@ -133,7 +137,7 @@ bool SerialLine::take(Bytes &buffer)
 void SerialLine::discardInput()
 {
     if (!m_lost)
-        m_port.clear(QSerialPort::Input);
+        m_port->clear(QSerialPort::Input);
 }
 
 Result<void> SerialLine::setBaudRate(int bitsPerSecond)
@@ -142,26 +146,26 @@ Result<void> SerialLine::setBaudRate(int bitsPerSecond)
         return lose();
     const int before = m_baudRate;
     int made = 0;
-    if (m_port.setBaudRate(bitsPerSecond)) {
-        made = posix::actualBaudRate(static_cast<int>(m_port.handle())).value_or(bitsPerSecond);
+    if (m_port->setBaudRate(bitsPerSecond)) {
+        made = posix::actualBaudRate(static_cast<int>(m_port->handle())).value_or(bitsPerSecond);
         if (std::abs(made - bitsPerSecond) <= Tolerance * bitsPerSecond) {
             m_baudRate = bitsPerSecond;
             return {};
         }
     }
-    if (m_port.error() == QSerialPort::ResourceError)
+    if (m_port->error() == QSerialPort::ResourceError)
         return lose();
-    m_port.clearError();
-    m_port.setBaudRate(before);
+    m_port->clearError();
+    m_port->setBaudRate(before);
     return tl::unexpected(messages::rateRefused(m_name, bitsPerSecond, made));
 }
 
 /// A silent wait leaves TimeoutError behind, which is none.
 bool SerialLine::isFine()
 {
-    switch (m_port.error()) {
+    switch (m_port->error()) {
     case QSerialPort::NoError: return true;
-    case QSerialPort::TimeoutError: m_port.clearError(); return true;
+    case QSerialPort::TimeoutError: m_port->clearError(); return true;
     default: return false;
     }
 }
@@ -171,7 +175,7 @@ Result<void> SerialLine::lose()
 {
     if (!m_lost) {
         m_lost = true;
-        m_port.close();
+        m_port->close();
     }
     return tl::unexpected(messages::portLost(m_name));
 }

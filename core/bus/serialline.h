@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/linefactory.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/bus/serialport_posix.h"
 
-#include <QSerialPort>
-
-#include <optional>
+QT_BEGIN_NAMESPACE
+class QSerialPort;
+QT_END_NAMESPACE
 
 namespace dynascope {
 
@@ -15,14 +15,9 @@ namespace dynascope {
 class SerialLine final : public Line
 {
 public:
-    struct Options {
-        /// How late an answer may come on account of the host. Default by kind: a pseudo-terminal 50 ms; else what the
-        /// adapter holds bytes back, 16 ms where that isn't known, and 5 ms of scheduling.
-        std::optional<LineTime> hostAllowance;
-    };
-
     /// Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
-    static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const Options &options);
+    static Result<std::unique_ptr<SerialLine>> open(const QString &name, int baudRate, const SerialOptions &options);
+    ~SerialLine() override;
 
     QString name() const override { return m_name; }
     LineTime now() const override;
@@ -36,37 +31,17 @@ public:
 private:
     SerialLine(QString name, posix::PortGuard guard);
 
-    Result<void> start(int baudRate, const Options &options);
+    Result<void> start(int baudRate, const SerialOptions &options);
     Result<void> lose();
     bool isFine();
     bool take(Bytes &buffer);
 
     QString m_name;
     posix::PortGuard m_guard;
-    QSerialPort m_port;
+    std::unique_ptr<QSerialPort> m_port;
     int m_baudRate = 57600;
     LineTime m_hostAllowance{};
     bool m_lost = false;
-};
-
-/// Opens serial ports by their path.
-class SerialLineFactory final : public LineFactory
-{
-public:
-    explicit SerialLineFactory(SerialLine::Options options = {}) : m_options(options) {}
-
-    bool knows(const QString &name) const override;
-    Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;
-
-private:
-    const SerialLine::Options m_options;
-};
-
-/// The machine's serial ports, likely adapters first.
-class SerialPortList final : public PortList
-{
-public:
-    std::vector<PortInfo> ports() const override;
 };
 
 } // namespace dynascope

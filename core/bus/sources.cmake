@@ -15,7 +15,7 @@ target_sources(dynascope_core PRIVATE
     bus/remainder.cpp bus/remainder.h
     bus/scan.cpp
     bus/serialbaud_posix.cpp
-    bus/serialline.cpp bus/serialline.h
+    bus/serialline.cpp bus/serialline.h bus/seriallinefactory.h
     bus/serialport_posix.cpp bus/serialport_posix.h
     bus/stop_values.h
     bus/stopsequence.cpp bus/stopsequence.h

@@ -30,12 +30,12 @@ Bytes heardAtOtherBaud(ByteView bytes, int from, int to)
 {
     const double bit = static_cast<double>(from) / to; // the listener's bit time in the sender's
     const auto end = static_cast<double>(bytes.size() * BitsPerByte);
-    const double step = std::min(bit, 1.0) / 2;
+    const auto nextBit = [](double time) { return std::floor(time) + 1; }; // the level stays until then
     Bytes heard;
     double at = 0;
     while (at < end) {
         if (level(bytes, at)) { // waits for a start bit
-            at += step;
+            at = nextBit(at);
             continue;
         }
         std::uint8_t byte = 0;
@@ -46,7 +46,7 @@ Bytes heardAtOtherBaud(ByteView bytes, int from, int to)
             heard.push_back(byte);
         at = stop;
         while (at < end && !level(bytes, at)) // a missing stop bit: waits until the wire is high again
-            at += step;
+            at = nextBit(at);
     }
     return heard;
 }

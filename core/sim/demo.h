@@ -7,9 +7,9 @@ namespace dynascope::sim {
 
 class DemoScript;
 
-/// The demo: a small arm of six servos at 1 Mbps, moved by a script inside the simulator (someone else's controller, as far
-/// as the window knows), and one fresh XL330-M288 at 57 600, ID 1. The script lets go of a joint that the person writes
-/// to, and of all of them once torque went off by the wire, until resume(). Destroy on the thread that made it.
+/// The demo: a small arm of six servos at 1 Mbps, moved by a script inside the simulator (someone else's controller, as
+/// far as the window knows), and one fresh XL330-M288 at 57 600, ID 1. The script lets go of a joint that the person
+/// writes to, and of all of them once torque went off by the wire, until resume(). Destroy on the thread that made it.
 class Demo
 {
 public:

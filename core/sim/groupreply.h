@@ -16,7 +16,7 @@ struct Chain {
         StatusPacket status;
     };
     LineTime heardAt{};
-    GroupReadCommand group;
+    GroupReadCommand group{};
     std::vector<Member> waiting;
     std::vector<StatusPacket> blocks; ///< of a fast read: all listed, blank until their turn
 };
@@ -24,8 +24,8 @@ struct Chain {
 /// The bytes that `member` adds: a status packet, or its part of the fast packet.
 Bytes chainBytes(Chain &chain, const Chain::Member &member);
 
-/// When each of the devices that heard a broadcast Ping speaks: in the order of IDs, an empty slot for every absent lower
-/// ID. `pings` by ID. Times are of the first bit.
+/// When each of the devices that heard a broadcast Ping speaks: in the order of IDs, an empty slot for every absent
+/// lower ID. `pings` by ID. Times are of the first bit.
 struct PingSlot {
     std::uint8_t id = 0;
     LineTime delay{};    ///< its own, after its predecessor

@@ -7,8 +7,8 @@
 
 namespace dynascope::sim {
 
-/// Puts a client's instruction packets together again: what a program writes at once may come from its terminal in pieces,
-/// with gaps that a real port's UART would not make.
+/// Puts a client's instruction packets together again: what a program writes at once may come from its terminal in
+/// pieces, with gaps that a real port's UART would not make.
 class PacketAssembler
 {
 public:

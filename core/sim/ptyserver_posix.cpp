@@ -196,7 +196,7 @@ Result<std::unique_ptr<PtyServer>> PtyServer::start(std::unique_ptr<SimulatedBus
         return tl::unexpected(terminal.error());
     const int wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake < 0)
-        return failure(ErrorKind::PortUnsuitable, QStringLiteral("The simulator could not be started: too many open files"));
+        return failure(ErrorKind::PortUnsuitable, QStringLiteral("The simulator needs more open files than allowed"));
     std::unique_ptr<PtyServer> server(new PtyServer);
     server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), std::move(onTick), wake);
     return server;

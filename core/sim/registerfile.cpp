@@ -34,7 +34,8 @@ RegisterFile::RegisterFile(ControlTablePtr table)
     for (const Field &field : m_table->fields()) {
         std::fill(m_covering.begin() + field.address, m_covering.begin() + field.end(), &field);
         if (field.name.startsWith(data))
-            m_indirectFor[field.address] = m_table->find(QStringLiteral("Indirect Address ") + field.name.mid(data.size()));
+            m_indirectFor[field.address]
+                = m_table->find(QStringLiteral("Indirect Address ") + field.name.mid(data.size()));
     }
     resetEeprom();
     resetRam();
@@ -139,7 +140,8 @@ DeviceError RegisterFile::check(const Run &run, DeviceError limitError) const
             return DeviceError::DataLength;
     }
     for (const Field *field : fieldsIn(run)) {
-        const ByteView bytes = ByteView(run.data).subspan(static_cast<std::size_t>(field->address - run.address), field->size);
+        const auto offset = static_cast<std::size_t>(field->address - run.address);
+        const ByteView bytes = ByteView(run.data).subspan(offset, field->size);
         const DeviceError error = checkValue(*field, rawFromBytes(*field, bytes), limitError);
         if (error != DeviceError::None)
             return error;

@@ -79,9 +79,11 @@ void Servo::setHardwareError(std::uint8_t bits)
     setTorque(false);
 }
 
-void Servo::powerCycle()
+void Servo::setPlugged(bool plugged)
 {
     boot(m_now);
+    if (!plugged)
+        m_deafUntil = LineTime::max();
 }
 
 void Servo::boot(LineTime at)

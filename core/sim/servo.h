@@ -22,8 +22,8 @@ struct Reaction {
     LineTime delay{};   ///< processing and Return Delay Time
     int baudRate = 57600;
     StatusPacket status;
-    GroupReadCommand group; ///< with Chain
-    std::size_t index = 0;  ///< with Chain: our place in group.spans
+    GroupReadCommand group{}; ///< with Chain
+    std::size_t index = 0;    ///< with Chain: our place in group.spans
 };
 
 /// One virtual servo: its control table, and what it does with instructions. Hears bytes, says what it would answer;
@@ -37,7 +37,6 @@ public:
         int baudRate = 57600;
     };
     Servo(ControlTablePtr table, const MotorModel &motor, const Identity &identity, std::uint64_t seed);
-
     const QString &model() const { return m_registers.table().model(); }
     const ControlTable &table() const { return m_registers.table(); }
     int firmware() const { return static_cast<int>(m_registers.get(Reg::FirmwareVersion)); }
@@ -45,26 +44,25 @@ public:
     int baudRate() const { return m_baudRate; }
     bool hasAlert() const { return m_registers.get(Reg::HardwareErrorStatus) != 0; }
     bool isDeaf(LineTime now) const { return now < m_deafUntil; }
-
     ServoSettings &settings() { return m_settings; }
     Joint &joint() { return m_motion.joint(); } ///< load, supply, starting position
 
     void beginAt(LineTime now);   ///< what lies before was nothing; once, before anything else
     void advanceTo(LineTime now); ///< motion, watchdog, faults; never goes back
 
-    /// Bytes at this servo's baud rate, the first bit at `begin`. Appends what it wants to answer. True where an
-    /// instruction packet was among them.
+    /// Bytes, the first bit at `begin`. Appends what it would answer; true where an instruction packet was among them.
     bool hear(ByteView bytes, LineTime begin, LineTime byteTime, std::vector<Reaction> &reactions);
 
-    /// @name Past the wire: for scripts and tests. Names as in the control table.
+    /// @name Past the wire: for scripts and tests
     /// @{
-    std::int64_t value(QStringView name);                         ///< as of the last advanceTo(); 0 without such a register
-    DeviceError write(QStringView name, std::int64_t value);      ///< with all checks and effects of a Write
-    void setHardwareError(std::uint8_t bits);                     ///< as if it had happened: Alert, Shutdown
-    void powerCycle();                                            ///< deaf while it boots
+    std::int64_t value(QStringView name);                    ///< as of the last advanceTo(); 0 where there is none
+    DeviceError write(QStringView name, std::int64_t value); ///< with all checks and effects of a Write
+    void setHardwareError(std::uint8_t bits);                ///< as if it had happened: Alert, Shutdown
+    void powerCycle() { boot(m_now); }                       ///< deaf while it boots
+    void setPlugged(bool plugged);                           ///< without its cable: no power, nobody hears
     /// @}
 
-    /// Called after each write that came by the wire and was obeyed.
+    /// After each write that came by the wire and was obeyed.
     using WriteObserver = std::function<void(Servo &, int address, ByteView data)>;
     void setWriteObserver(WriteObserver observer) { m_observer = std::move(observer); }
 
@@ -112,8 +110,8 @@ private:
     Parser m_parser;
     int m_baudRate;
     LineTime m_now{}, m_heardLast{}, m_instructedLast{}, m_deafUntil{}, m_bootedAt{};
-    bool m_shutDown = false;
-    bool m_restart = false; ///< boots as soon as the answer is made
+    bool m_shutDown = false; ///< by Shutdown: no torque until it boots
+    bool m_restart = false;  ///< boots as soon as the answer is made
     std::optional<WriteCommand> m_registered;
     std::optional<Bytes> m_backup;
     WriteObserver m_observer;

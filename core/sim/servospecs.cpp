@@ -39,7 +39,8 @@ Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
         QStringList rates;
         for (const BaudCode &code : table->description().baudCodes)
             rates.append(QString::number(code.rate));
-        return wrong(entry, QStringLiteral("the rates of %1 are %2").arg(info->model, rates.join(QStringLiteral(", "))));
+        return wrong(entry,
+                     QStringLiteral("the rates of %1 are %2").arg(info->model, rates.join(QStringLiteral(", "))));
     }
     spec.id = entry.sliced(colon + 1).toInt(&ok);
     if (!ok || spec.id < 0 || spec.id > MaximumId)
@@ -55,7 +56,8 @@ Result<std::vector<ServoSpec>> parseServoSpecs(QStringView text, const Catalog &
     for (const QStringView entry : text.split(u',')) {
         const QStringView trimmed = entry.trimmed();
         if (trimmed.isEmpty())
-            return failure(ErrorKind::InvalidArgument, QStringLiteral("A device is missing in \"%1\"").arg(text.toString()));
+            return failure(ErrorKind::InvalidArgument,
+                           QStringLiteral("A device is missing in \"%1\"").arg(text.toString()));
         auto spec = parseOne(trimmed, catalog);
         if (!spec)
             return tl::unexpected(spec.error());

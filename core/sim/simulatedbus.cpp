@@ -160,7 +160,8 @@ void SimulatedBus::hearController(const Transmission &sent)
     for (const auto &servo : m_servos) {
         const bool same = understandEachOther(sent.baudRate, servo->baudRate());
         const Bytes heard = same ? sent.bytes : heardAtOtherBaud(sent.bytes, sent.baudRate, servo->baudRate());
-        const LineTime byteTime = heard.empty() ? LineTime{} : (sent.end() - sent.begin) / static_cast<int>(heard.size());
+        const auto count = static_cast<LineTime::rep>(std::max<std::size_t>(heard.size(), 1));
+        const LineTime byteTime = (sent.end() - sent.begin) / count;
         std::vector<Reaction> reactions;
         if (servo->hear(heard, sent.begin, byteTime, reactions))
             interrupt(servo.get());

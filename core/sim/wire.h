@@ -23,7 +23,7 @@ struct Transmission {
     LineTime end() const { return begin + static_cast<LineTime::rep>(bytes.size()) * byteTime(); }
 };
 
-/// The half-duplex wire: who speaks when, what happens when two do, and what the controller hears of it. Part of the bus.
+/// The half-duplex wire: who speaks when, what happens when two do, what the controller hears. Part of the bus.
 class Wire
 {
 public:

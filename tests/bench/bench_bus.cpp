@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One read over pty and QSerialPort in wall time, and a full scan in virtual time.
 #include "core/bus/operations.h"
-#include "core/bus/serialline.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/sim/ptyserver.h"
 #include "core/sim/servo.h"
 #include "core/session/scanner.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // STOP: from the press to the first torque-off packet on the wire, by the wire's own log, while the bus is busy in three ways.
 // The design allows 5 ms plus the rest of the packet in flight, p99.
-#include "core/bus/serialline.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"

@@ -20,7 +20,8 @@ private slots:
         const StatusPacket blocks[] = {{3, DeviceError::None, false, {0xA6, 0, 0, 0}},
                                        {7, DeviceError::None, false, {0xA5, 0x01}},
                                        {4, DeviceError::None, false, {0x1F}}};
-        const char *pieces[] = {"FF FF FD 00 FE 14 00 55 00 03 A6 00 00 00 67 A4", "00 07 A5 01 24 74", "00 04 1F D9 C1"};
+        const char *pieces[] = {"FF FF FD 00 FE 14 00 55 00 03 A6 00 00 00 67 A4", "00 07 A5 01 24 74",
+                                "00 04 1F D9 C1"};
         for (std::size_t i = 0; i < 3; ++i) {
             const StatusPacket &block = blocks[i];
             QCOMPARE(hex(chainBytes(chain, {nullptr, i, {}, 57600, block})), QString::fromLatin1(pieces[i]));

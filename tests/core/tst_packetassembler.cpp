@@ -15,13 +15,14 @@ private slots:
     void pieces_data()
     {
         QTest::addColumn<QString>("stream");
-        QTest::addColumn<QStringList>("packets"); // in the end, patience exhausted
+        QTest::addColumn<QStringList>("packets"); // the last of them is compared
         const QString ping = hex(instruction(QStringLiteral("01 01")));
         const QString read = hex(instruction(QStringLiteral("02 02 84 00 04 00")));
         QTest::newRow("one") << ping << QStringList{ping};
         QTest::newRow("two") << ping + u' ' + read << QStringList{ping, read};
-        QTest::newRow("noise before") << QStringLiteral("01 02 FF ") + ping << QStringList{QStringLiteral("01 02"), QStringLiteral("FF"), ping};
-        QTest::newRow("the beginning alone") << QStringLiteral("FF FF FD 00 01") << QStringList{QStringLiteral("FF FF FD 00 01")};
+        QTest::newRow("noise before") << QStringLiteral("01 02 FF ") + ping << QStringList{ping};
+        const QString beginning = QStringLiteral("FF FF FD 00 01");
+        QTest::newRow("the beginning alone") << beginning << QStringList{beginning};
         const QString tooLong = QStringLiteral("FF FF FD 00 01 FF FF 01 02");
         QTest::newRow("a length that can't be") << tooLong << QStringList{tooLong};
     }

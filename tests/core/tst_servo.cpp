@@ -95,8 +95,8 @@ private slots:
         QTest::newRow("ID change answers with the old ID") << "" << "01 03 07 00 09" << "01 00";
         QTest::newRow("then it has the new one") << "01 03 07 00 09" << "09 01" << "09 00 FC 03 2D";
 
-        QTest::newRow("Indirect Data reads where it points") << "01 03 A8 00 41 00;01 03 41 00 01" << "01 02 E0 00 01 00"
-                                                             << "01 00 01";
+        QTest::newRow("Indirect Data reads where it points") << "01 03 A8 00 41 00;01 03 41 00 01"
+                                                             << "01 02 E0 00 01 00" << "01 00 01";
         QTest::newRow("Indirect Data writes where it points") << "01 03 A8 00 41 00;01 03 E0 00 01"
                                                               << "01 02 41 00 01 00" << "01 00 01";
         QTest::newRow("Indirect Data takes the range of what it points at") << "01 03 A8 00 41 00" << "01 03 E0 00 02"

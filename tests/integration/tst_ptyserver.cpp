@@ -70,13 +70,16 @@ private slots:
         m_server->call([](SimulatedBus &bus, LineTime) { bus.setLogging(true); });
         client.write(m_ping);
         client.readAtLeast(m_answer.size(), 5000);
-        m_server->call([&](SimulatedBus &bus, LineTime now) {
-            QCOMPARE(bus.log().size(), std::size_t(2));
-            const LineTime byte(10'000'000'000LL / 57600);
-            QCOMPARE(bus.log()[1].end - bus.log()[0].begin,
-                     static_cast<int>(m_ping.size() + m_answer.size()) * byte + 600us);
-            QVERIFY(now >= bus.log()[1].end); // the answer did not come before its time
+        std::vector<WireEntry> log;
+        LineTime now{};
+        m_server->call([&](SimulatedBus &bus, LineTime at) {
+            log = bus.log();
+            now = at;
         });
+        QCOMPARE(log.size(), std::size_t(2));
+        const LineTime byte(10'000'000'000LL / 57600);
+        QCOMPARE(log[1].end - log[0].begin, static_cast<int>(m_ping.size() + m_answer.size()) * byte + 600us);
+        QVERIFY(now >= log[1].end); // the answer did not come before its time
     }
 
     void servesTheNextClientAfterOneThatWasKilled()

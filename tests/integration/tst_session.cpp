@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/bus/serialline.h"
+#include "core/bus/seriallinefactory.h"
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"

@@ -1,4 +1,8 @@
 target_sources(dynascope_test_support PRIVATE
+    support/fakefactory.cpp support/fakefactory.h
+    support/fakeline.cpp support/fakeline.h
+    support/fakeservos.cpp support/fakeservos.h
+    support/hex.cpp support/hex.h
     support/oracle.cpp support/oracle.h
     support/sessionfixture.h
     support/simclient.h
@@ -8,5 +12,6 @@ if(UNIX)
     target_sources(dynascope_test_support PRIVATE
         support/dxlprocess_posix.cpp support/dxlprocess.h
         support/ptyclient_posix.cpp support/ptyclient.h
+        support/ptymaster_posix.cpp support/ptymaster.h
     )
 endif()

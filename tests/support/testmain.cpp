@@ -16,7 +16,7 @@ namespace {
 /// Said by Qt, meant for nobody.
 constexpr std::array harmless{
     "This plugin does not support propagateSizeHints()", // the offscreen platform, for every window
-    "This plugin does not support raise()",                  // and for every menu
+    "This plugin does not support raise()",              // the same, for every menu and list
     "This plugin does not support grabbing the keyboard",
 };
 

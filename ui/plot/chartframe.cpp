@@ -38,7 +38,10 @@ void setRange(QValueAxis *axis, double minimum, double maximum, double step)
 {
     if (axis->tickInterval() < step)
         axis->setTickInterval(step);
-    axis->setRange(minimum, maximum);
+    // Labels are added up from the first one, and zero may come out as "-0": a hair more, and it doesn't.
+    const double hair = step * 1e-6;
+    axis->setTickAnchor(hair);
+    axis->setRange(minimum, maximum + 2 * hair);
     axis->setTickInterval(step);
 }
 
@@ -57,7 +60,6 @@ ChartFrame::ChartFrame()
     m_scene->addItem(m_chart);
     m_chart->legend()->hide();
     m_chart->setBackgroundVisible(false);
-    m_chart->setPlotAreaBackgroundVisible(true);
     m_chart->setMargins({});
     m_chart->layout()->setContentsMargins(0, 0, 0, 0);
     m_chart->addAxis(m_time, Qt::AlignBottom);
@@ -71,7 +73,6 @@ ChartFrame::ChartFrame()
     }
     for (QValueAxis *axis : {m_time, m_values[0], m_values[1]}) {
         axis->setTickType(QValueAxis::TicksDynamic);
-        axis->setTickAnchor(0);
         axis->setLineVisible(axis == m_time);
         axis->setMinorGridLineVisible(false);
         axis->setTruncateLabels(false);
@@ -87,7 +88,7 @@ QRectF ChartFrame::plotArea(const Content &content)
     const qreal labels = metrics.horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
     const qreal left = content.values[0].isUsed ? labels : Margin;
     const qreal right = content.values[1].isUsed ? labels : 2.0 * Margin;
-    const qreal top = metrics.height() + Margin;
+    const qreal top = metrics.height() + 1.5 * Margin;
     const qreal bottom = metrics.height() + 1.5 * Margin;
     const auto whole = [&content](qreal value) { return std::round(value * content.pixelRatio) / content.pixelRatio; };
     const qreal width = std::max(1.0, content.size.width() - left - right);
@@ -98,8 +99,6 @@ QRectF ChartFrame::plotArea(const Content &content)
 void ChartFrame::applyColors(const Content &content)
 {
     const ThemeColors &theme = colors(content.palette);
-    m_chart->setPlotAreaBackgroundBrush(content.palette.color(QPalette::Base));
-    m_chart->setPlotAreaBackgroundPen(QPen(theme.border));
     for (QValueAxis *axis : {m_time, m_values[0], m_values[1]}) {
         axis->setLabelsFont(content.font);
         axis->setLabelsBrush(theme.dimmed);
@@ -138,16 +137,19 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
     m_pixmap.setDevicePixelRatio(content.pixelRatio);
     m_pixmap.fill(content.palette.color(QPalette::Window));
     QPainter painter(&m_pixmap);
+    const QRectF area = plotArea(content);
+    painter.fillRect(area, content.palette.color(QPalette::Base));
     const QRectF whole(QPointF(), content.size);
     m_scene->render(&painter, whole, whole);
     painter.setFont(content.font);
-    painter.setPen(colors(content.palette).dimmed);
-    const QRectF area = plotArea(content);
-    const QRectF above(area.left(), 0, area.width(), area.top() - 2);
+    const ThemeColors &theme = colors(content.palette);
+    painter.setPen(theme.border);
+    painter.drawRect(area);
+    painter.setPen(theme.dimmed);
+    const QRectF above(area.left(), 0, area.width(), area.top() - 3);
     for (std::size_t i = 0; i < m_values.size(); ++i) {
         if (content.values[i].isUsed)
-            painter.drawText(above.adjusted(-Margin, 0, Margin, 0),
-                             Qt::AlignVCenter | (i == 0 ? Qt::AlignLeft : Qt::AlignRight), content.values[i].title);
+            painter.drawText(above, Qt::AlignBottom | (i == 0 ? Qt::AlignLeft : Qt::AlignRight), content.values[i].title);
     }
     return m_pixmap;
 }

@@ -67,7 +67,7 @@ void ColumnRaster::span(int x, float top, float bottom)
         blend(column[last], bottom - static_cast<float>(last));
 }
 
-void ColumnRaster::slope(int x, float from, float to, float thickness)
+void ColumnRaster::slope(int x, float from, float to, float thickness, Limits limits)
 {
     const float low = std::min(from, to);
     const float high = std::max(from, to);
@@ -82,12 +82,17 @@ void ColumnRaster::slope(int x, float from, float to, float thickness)
     const float most = std::min(1.0F, 2 * half / ramp);
     const float begin = low - half - 0.5F;
     const float end = high + half + 0.5F;
-    const int first = std::max(0, static_cast<int>(std::floor(std::max(begin, -1.0F))));
-    const int last = std::min(m_height, static_cast<int>(std::ceil(std::min(end, static_cast<float>(m_height)))));
+    const float top = std::max({begin, limits.top, 0.0F});
+    const float bottom = std::min({end, limits.bottom, static_cast<float>(m_height)});
+    if (!(top < bottom))
+        return;
+    const int first = static_cast<int>(top);
+    const int last = static_cast<int>(std::ceil(bottom));
     quint32 *column = m_pixels.data() + static_cast<std::size_t>(x) * static_cast<std::size_t>(m_height);
     for (int y = first; y < last; ++y) {
         const float middle = static_cast<float>(y) + 0.5F;
-        const float coverage = std::min(most, std::min(middle - begin, end - middle) / ramp);
+        const float inside = std::min(static_cast<float>(y) + 1, bottom) - std::max(static_cast<float>(y), top);
+        const float coverage = std::min({inside, most, (middle - begin) / ramp, (end - middle) / ramp});
         if (coverage > 0)
             blend(column[y], coverage);
     }

@@ -21,8 +21,12 @@ public:
     void setColor(const QColor &color); ///< alpha counts
     /// Everything between top and bottom, in pixels from the upper edge; beyond the edges is cut off.
     void span(int x, float top, float bottom);
-    /// A line of this thickness that crosses the column between the heights `from` and `to`.
-    void slope(int x, float from, float to, float thickness);
+    /// A line of this thickness that crosses the column between the heights `from` and `to`; nothing beyond `limits`.
+    struct Limits {
+        float top;
+        float bottom;
+    };
+    void slope(int x, float from, float to, float thickness, Limits limits);
 
     /// Premultiplied, transparent where nothing was painted; valid until the next call.
     const QImage &image();

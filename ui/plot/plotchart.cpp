@@ -143,7 +143,7 @@ void PlotChart::paintEvent(QPaintEvent *)
     }
     if (m_cursor && !m_dragFrom && area.contains(*m_cursor))
         PlotReadout{m_traces, m_scales, now, area, m_cursor->x(), palette()}.paint(painter);
-    if (m_marked || hasFocus()) {
+    if (m_marked || m_showFocus) {
         painter.setPen(QPen(colors(palette()).accent, m_marked ? 2 : 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(area);
@@ -251,6 +251,19 @@ void PlotChart::keyPressEvent(QKeyEvent *event)
     case Qt::Key_Home: emit fitRequested(); return;
     default: QWidget::keyPressEvent(event);
     }
+}
+
+void PlotChart::focusInEvent(QFocusEvent *event)
+{
+    m_showFocus = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason
+        || event->reason() == Qt::ShortcutFocusReason;
+    update();
+}
+
+void PlotChart::focusOutEvent(QFocusEvent *)
+{
+    m_showFocus = false;
+    update();
 }
 
 void PlotChart::leaveEvent(QEvent *)

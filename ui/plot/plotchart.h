@@ -52,6 +52,8 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent *event) override;
     void wheelEvent(QWheelEvent *event) override;
     void keyPressEvent(QKeyEvent *event) override;
+    void focusInEvent(QFocusEvent *event) override;
+    void focusOutEvent(QFocusEvent *event) override;
     void leaveEvent(QEvent *event) override;
     void changeEvent(QEvent *event) override;
 
@@ -71,6 +73,7 @@ private:
     int m_emphasized = -1;
     bool m_autoscale = true;
     bool m_marked = false;
+    bool m_showFocus = false; ///< it came by key
     std::optional<QPointF> m_cursor;
     std::optional<QPointF> m_dragFrom;
     int m_wheelRest = 0; ///< eighths of a degree that don't make a step yet

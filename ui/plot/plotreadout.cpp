@@ -75,7 +75,7 @@ void PlotReadout::paint(QPainter &painter) const
         values = std::max(values, digits.horizontalAdvance(QString::number(row.value, 'f', row.trace->decimals)));
         units = std::max(units, text.horizontalAdvance(row.trace->unit));
     }
-    const qreal width = 4 * Padding + Swatch + names + values + units;
+    const qreal width = 5 * Padding + Swatch + names + values + units;
     const qreal height = line * (static_cast<qreal>(rows.size()) + 1 + (more > 0 ? 1 : 0)) + Padding;
     const bool isLeft = x + Padding + width > area.right();
     const QRectF box(std::round(isLeft ? x - Padding - width : x + Padding) + 0.5, area.top() + 8.5, width, height);

@@ -45,7 +45,7 @@ TimeView TimeWindow::view(int columns, LineTime newest) const
     const LineTime span = m_live ? m_span : m_pausedSpan;
     const LineTime end = m_live ? newest : m_end;
     TimeView view;
-    view.step = std::max(LineTime(1), span / count);
+    view.step = std::max(LineTime(1), (span + LineTime(count - 1)) / count); // up: the whole span is in sight
     view.columns = count;
     view.firstColumn = end / view.step - count + 1; // the column that holds `end` is the last
     view.zero = m_live ? view.to() : m_zero;

@@ -82,7 +82,8 @@ void TraceImage::paintColumns(const Item &item, std::span<const History::Column>
             for (int between = beforeAt + 1; between < x; ++between) {
                 const auto part = static_cast<float>(between - beforeAt);
                 m_raster.slope(between, from + (to - from) * (part - 0.5F) / distance,
-                               from + (to - from) * (part + 0.5F) / distance, item.thickness);
+                               from + (to - from) * (part + 0.5F) / distance, item.thickness,
+                               {std::min(from, to) - half, std::max(from, to) + half});
             }
             // Meets the neighbour half-way, so that both share a jump.
             const float meeting = beforeAt == x - 1 ? from : from + (to - from) * (distance - 0.5F) / distance;
@@ -95,37 +96,28 @@ void TraceImage::paintColumns(const Item &item, std::span<const History::Column>
     }
 }
 
-/// The way through samples first - 1 ... last: per column, the heights it passes through.
+void TraceImage::PathColumn::include(float y)
+{
+    const bool isFirst = isEmpty();
+    low = isFirst ? y : std::min(low, y);
+    high = isFirst ? y : std::max(high, y);
+}
+
+/// The way through samples first - 1 ... last.
 void TraceImage::paintLines(const Item &item, const TimeView &view, std::size_t first, std::size_t last)
 {
     const History &history = *item.trace->history;
     const Vertical vertical(item, m_raster.height());
+    m_path.assign(static_cast<std::size_t>(view.columns), {});
+    const auto visit = [this](int column, float y, bool isSample) {
+        if (column < 0 || column >= static_cast<int>(m_path.size()))
+            return;
+        PathColumn &path = m_path[static_cast<std::size_t>(column)];
+        path.include(y);
+        path.samples += isSample ? 1 : 0;
+    };
     const std::size_t begin = first > 0 ? first - 1 : first;
     const std::size_t end = std::min(last + 1, history.size());
-    const double width = view.columns;
-    int column = -1; // the one being collected
-    int turns = 0;   // sample points in it: with two, the way may go up and down
-    float low = 0;
-    float high = 0;
-    const auto flush = [&] {
-        if (column < 0 || column >= view.columns)
-            return;
-        if (turns > 1)
-            m_raster.span(column, low - item.thickness / 2, high + item.thickness / 2);
-        else
-            m_raster.slope(column, low, high, item.thickness);
-    };
-    const auto visit = [&](int x, float y, bool isSample) {
-        if (x != column) {
-            flush();
-            column = x;
-            turns = 0;
-            low = high = y;
-        }
-        low = std::min(low, y);
-        high = std::max(high, y);
-        turns += isSample ? 1 : 0;
-    };
     double fromX = 0;
     float fromY = 0;
     for (std::size_t i = begin; i < end; ++i) {
@@ -134,20 +126,44 @@ void TraceImage::paintLines(const Item &item, const TimeView &view, std::size_t 
         const float y = vertical(sample.raw);
         if (i > begin && !history.gapBefore(i)) {
             const double steepness = x > fromX ? static_cast<double>(y - fromY) / (x - fromX) : 0;
-            const double stop = std::min(x, width);
+            const double stop = std::min(x, static_cast<double>(view.columns));
             for (int border = static_cast<int>(std::max(std::floor(fromX) + 1, 0.0)); border <= stop; ++border) {
                 const auto at = static_cast<float>(fromY + steepness * (border - fromX));
-                if (border > 0)
-                    visit(border - 1, at, false);
+                visit(border - 1, at, false);
                 visit(border, at, false);
             }
         }
-        visit(static_cast<int>(std::clamp(std::floor(x), -1.0, width)), y, true);
+        if (x >= 0)
+            visit(static_cast<int>(std::min(x, static_cast<double>(view.columns))), y, true);
         fromX = x;
         fromY = y;
     }
-    flush();
+    strokePath(item.thickness);
     paintDots(item, view, first, last);
+}
+
+void TraceImage::strokePath(float thickness)
+{
+    const float half = thickness / 2;
+    for (std::size_t i = 0; i < m_path.size(); ++i) {
+        const PathColumn &path = m_path[i];
+        if (path.isEmpty())
+            continue;
+        if (path.samples > 1) { // may go up and down
+            m_raster.span(static_cast<int>(i), path.low - half, path.high + half);
+            continue;
+        }
+        // A steep line's edge reaches into the columns beside it, yet not past its own end.
+        float low = path.low;
+        float high = path.high;
+        for (const std::size_t beside : {i - 1, i + 1}) {
+            if (beside >= m_path.size() || m_path[beside].isEmpty())
+                continue;
+            low = std::min(low, m_path[beside].low);
+            high = std::max(high, m_path[beside].high);
+        }
+        m_raster.slope(static_cast<int>(i), path.low, path.high, thickness, {low - half, high + half});
+    }
 }
 
 void TraceImage::paintDots(const Item &item, const TimeView &view, std::size_t first, std::size_t last)

@@ -26,10 +26,22 @@ private:
     void paintItem(const Item &item, ColumnCache &cache, const TimeView &view);
     void paintColumns(const Item &item, std::span<const History::Column> columns);
     void paintLines(const Item &item, const TimeView &view, std::size_t first, std::size_t last);
+    void strokePath(float thickness);
     void paintDots(const Item &item, const TimeView &view, std::size_t first, std::size_t last);
+
+    /// The heights that a trace passes through inside a column.
+    struct PathColumn {
+        float low = 1;
+        float high = 0; ///< below `low`: none
+        int samples = 0;
+
+        bool isEmpty() const { return high < low; }
+        void include(float y);
+    };
 
     ColumnRaster m_raster;
     std::vector<ColumnCache> m_caches;
+    std::vector<PathColumn> m_path;
 };
 
 } // namespace dynascope

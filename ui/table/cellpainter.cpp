@@ -11,7 +11,6 @@
 namespace dynascope {
 namespace {
 
-constexpr int Margin = 8;
 constexpr int IconSize = 14;
 constexpr int TickSize = 14;
 
@@ -21,13 +20,8 @@ struct Ink {
 
 Ink inkFor(const QStyleOptionViewItem &option)
 {
+    // Selected rows are tinted lightly (see TableView::drawRow): every ink stays readable on them.
     const ThemeColors &theme = colors(option.palette);
-    if ((option.state & QStyle::State_Selected) && (option.state & QStyle::State_Active)) {
-        const QColor text = option.palette.color(QPalette::Active, QPalette::HighlightedText);
-        QColor dimmed = text;
-        dimmed.setAlphaF(0.75F);
-        return {text, dimmed, text, text};
-    }
     return {option.palette.color(QPalette::Active, QPalette::Text), theme.dimmed, theme.accent, theme.bad};
 }
 
@@ -45,9 +39,10 @@ void takeRight(QPainter *painter, QRect &rect, const QString &text, const QColor
 void paintMark(QPainter *painter, QRect &rect, const QModelIndex &index, const Ink &ink, FieldState state)
 {
     const QRect mark(rect.left(), rect.center().y() - IconSize / 2, IconSize, IconSize);
-    if (state == FieldState::Failed) {
+    const ColumnKind kind = kindAt(index);
+    if (state == FieldState::Failed && kind != ColumnKind::Physical) { // once a row and device
         paintIcon(painter, mark, QStringLiteral("warning"), ink.bad);
-    } else if (index.data(DiffersRole).toBool()) {
+    } else if (kind == ColumnKind::Device && index.data(DiffersRole).toBool()) {
         painter->setPen(ink.accent);
         painter->drawText(mark, Qt::AlignCenter, QString(QChar(0x2260)));
     } else {
@@ -83,12 +78,12 @@ void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QMo
     const Ink ink = inkFor(option);
     const auto state = static_cast<FieldState>(index.data(StateRole).toInt());
     const double fade = index.data(FadeRole).toDouble();
-    if (fade > 0 && !(option.state & QStyle::State_Selected)) {
+    if (fade > 0) {
         QColor changed = colors(option.palette).changed;
         changed.setAlphaF(static_cast<float>(fade));
         painter->fillRect(option.rect, changed);
     }
-    QRect rect = option.rect.adjusted(Margin, 0, -Margin, 0);
+    QRect rect = option.rect.adjusted(CellMargin, 0, -CellMargin, 0);
     const ColumnKind kind = kindAt(index);
     const QString number = index.data(NumberRole).toString();
     const QString whole = index.data(Qt::DisplayRole).toString();
@@ -141,16 +136,15 @@ void paintPlotTick(QPainter *painter, const QStyleOptionViewItem &option, Qt::Ch
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
     if (state == Qt::Unchecked) {
-        painter->setPen(ink.text == ink.accent ? ink.dimmed : option.palette.color(QPalette::Mid));
+        painter->setPen(option.state & QStyle::State_Selected ? ink.dimmed : option.palette.color(QPalette::Mid));
         painter->setBrush(Qt::NoBrush);
         painter->drawRoundedRect(box, 3, 3);
     } else {
-        const bool selected = ink.text == ink.accent;
         painter->setPen(Qt::NoPen);
         painter->setBrush(ink.accent);
         painter->drawRoundedRect(box, 3, 3);
         painter->setBrush(Qt::NoBrush);
-        const QColor tick = selected ? option.palette.color(QPalette::Highlight) : option.palette.color(QPalette::Base);
+        const QColor tick = option.palette.color(QPalette::Base);
         paintIcon(painter, box.adjusted(1, 1, -1, -1),
                   state == Qt::Checked ? QStringLiteral("check") : QStringLiteral("minus"), tick);
     }

@@ -9,6 +9,8 @@ class QPainter;
 
 namespace dynascope {
 
+inline constexpr int CellMargin = 8; ///< left and right of what a cell says
+
 /// How wide the lane is in which units stand, so that the numbers left of it line up whatever their unit.
 int unitLaneWidth(const QFont &font);
 

@@ -21,6 +21,10 @@ EditFlow::EditFlow(FieldTableModel &model, TableView &view, LockBar &bar, TableA
     connect(&bar, &LockBar::dismissed, this, &EditFlow::forget);
     connect(&model, &FieldTableModel::updated, this, &EditFlow::resume);
     connect(&model, &QAbstractItemModel::modelAboutToBeReset, this, &EditFlow::forget);
+    connect(view.selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex &current) {
+        if (m_locked.isValid() && current.siblingAtColumn(0) != m_locked.sibling(m_locked.row(), 0))
+            forget();
+    });
 }
 
 std::vector<Device *> EditFlow::targets(const QModelIndex &cell) const

@@ -15,8 +15,6 @@
 namespace dynascope {
 namespace {
 
-constexpr int Margin = 8;
-
 std::optional<std::int64_t> rawAt(const QModelIndex &index)
 {
     const QVariant raw = index.data(RawRole);
@@ -51,13 +49,11 @@ void FieldDelegate::paint(QPainter *painter, const QStyleOptionViewItem &given, 
 
 void FieldDelegate::paintText(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
 {
-    const bool selected = (option.state & QStyle::State_Selected) && (option.state & QStyle::State_Active);
     const ColumnKind kind = kindAt(index);
     const bool digits = kind == ColumnKind::Address || kind == ColumnKind::Default || kind == ColumnKind::Range;
-    QColor color = option.palette.color(QPalette::Active, selected ? QPalette::HighlightedText : QPalette::Text);
-    if (kind != ColumnKind::Name && !selected)
-        color = colors(option.palette).dimmed;
-    const QRect rect = option.rect.adjusted(kind == ColumnKind::Name ? 2 : Margin, 0, -Margin, 0);
+    const QColor color = kind == ColumnKind::Name ? option.palette.color(QPalette::Active, QPalette::Text)
+                                                  : colors(option.palette).dimmed;
+    const QRect rect = option.rect.adjusted(kind == ColumnKind::Name ? 2 : CellMargin, 0, -CellMargin, 0);
     painter->save();
     painter->setFont(digits ? numberFont(option.font) : option.font);
     painter->setPen(color);

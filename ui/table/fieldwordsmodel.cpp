@@ -29,7 +29,7 @@ QString rangeText(const EffectiveField &effective)
 
 QString accessText(const Field &field)
 {
-    return field.isWritable() ? FieldWordsModel::tr("read, write") : FieldWordsModel::tr("read only");
+    return field.isWritable() ? FieldWordsModel::tr("read and write") : FieldWordsModel::tr("read only");
 }
 
 QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
@@ -56,7 +56,7 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
     case ColumnKind::Address: return field->address;
     case ColumnKind::Default: return field->initial ? QVariant(static_cast<qlonglong>(*field->initial)) : QVariant();
     case ColumnKind::Range: return rangeText(QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
-    case ColumnKind::Access: return accessText(*field);
+    case ColumnKind::Access: return field->isWritable() ? QStringLiteral("RW") : QStringLiteral("R");
     default: return {};
     }
 }
@@ -70,7 +70,8 @@ QVariant FieldWordsModel::valueData(const QModelIndex &index, const Field &field
         return {};
     const Words said = words(index, field, kind, raw.toLongLong());
     switch (role) {
-    case NumberRole: return said.number.isEmpty() ? QVariant() : QVariant(said.number);
+    case NumberRole:
+        return said.number.isEmpty() ? QVariant() : QVariant(QString(said.number).replace(u'-', QChar(0x2212)));
     case UnitRole: return said.unit;
     default: return said.text;
     }
@@ -101,6 +102,10 @@ QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, C
         return tr("Plot %1 (Space)").arg(field.name);
     if (kind == ColumnKind::Name)
         return field.help.isEmpty() ? field.name : QStringLiteral("%1\n%2").arg(field.name, field.help);
+    if (kind == ColumnKind::Access)
+        return accessText(field);
+    if (kind == ColumnKind::Range)
+        return rangeText(QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
     if (!isValueKind(kind))
         return {};
     if (const QString error = QIdentityProxyModel::data(index, ErrorRole).toString(); !error.isEmpty())

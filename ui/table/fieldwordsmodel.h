@@ -38,6 +38,6 @@ private:
 
 /// "0 … 4095"; empty where anything goes that fits.
 QString rangeText(const EffectiveField &effective);
-QString accessText(const Field &field); ///< "read only", "read, write"
+QString accessText(const Field &field); ///< "read only", "read and write"
 
 } // namespace dynascope

@@ -57,8 +57,10 @@ GoalBar::GoalBar(GoalSlider::Writer writer, QWidget *parent)
     hide();
 }
 
-void GoalBar::setDevices(const std::vector<Device *> &devices)
+void GoalBar::setDevices(const std::vector<Device *> &devices, const QString &whom)
 {
+    m_first->setWhom(whom);
+    m_second->setWhom(whom);
     const bool same = devices.size() == m_devices.size()
         && std::equal(devices.begin(), devices.end(), m_devices.begin(),
                       [](Device *one, const QPointer<Device> &other) { return one == other.data(); });

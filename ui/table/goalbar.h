@@ -19,7 +19,8 @@ class GoalBar : public QFrame
 public:
     explicit GoalBar(GoalSlider::Writer writer, QWidget *parent = nullptr);
 
-    void setDevices(const std::vector<Device *> &devices); ///< follows the first, writes to all
+    /// Follows the first, writes to all. `whom` says whose goals they are where that isn't plain.
+    void setDevices(const std::vector<Device *> &devices, const QString &whom = {});
     void setAngleUnit(AngleUnit unit);
 
 private:

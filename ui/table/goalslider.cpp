@@ -31,6 +31,7 @@ GoalSlider::GoalSlider(Writer writer, QWidget *parent)
     m_slider->setMinimumWidth(120);
     m_slider->setFocusPolicy(Qt::StrongFocus);
     m_spin->setKeyboardTracking(false);
+    m_spin->setLocale(QLocale::c()); // a decimal point, as everywhere in the grid
     m_spin->setAlignment(Qt::AlignRight);
     m_spin->setFont(numberFont(font()));
     m_spin->setMinimumWidth(132);
@@ -87,6 +88,12 @@ void GoalSlider::setTarget(const std::vector<Device *> &devices, int field)
     refresh();
 }
 
+void GoalSlider::setWhom(const QString &whom)
+{
+    m_whom = whom;
+    refresh();
+}
+
 void GoalSlider::setAngleUnit(AngleUnit unit)
 {
     m_angle = unit;
@@ -106,8 +113,8 @@ void GoalSlider::refresh()
     const QString lock = device->lockReason(m_field);
     const bool ready = device->isTorqueOn() && lock.isEmpty() && value.raw;
     const QString why = !lock.isEmpty() ? lock : tr("Goals can be moved while torque is on.");
-    m_note->setText(ready ? QString() : device->isTorqueOn() ? tr("not known yet") : tr("torque is off"));
-    m_note->setVisible(!ready);
+    m_note->setText(ready ? m_whom : device->isTorqueOn() ? tr("not known yet") : tr("torque is off"));
+    m_note->setVisible(!m_note->text().isEmpty());
     for (QWidget *part : {static_cast<QWidget *>(m_slider), static_cast<QWidget *>(m_spin)}) {
         part->setEnabled(ready);
         part->setToolTip(ready ? tr("%1: arrows and page keys, or the wheel").arg(field.name) : why);

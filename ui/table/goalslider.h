@@ -27,6 +27,7 @@ public:
 
     /// Follows the first, writes to all.
     void setTarget(const std::vector<Device *> &devices, int field);
+    void setWhom(const QString &whom); ///< said beside the slider
     void setAngleUnit(AngleUnit unit);
     QSlider *slider() const { return m_slider; }
     QDoubleSpinBox *spin() const { return m_spin; }
@@ -40,6 +41,7 @@ private:
 
     Writer m_writer;
     std::vector<QPointer<Device>> m_devices;
+    QString m_whom;
     int m_field = -1;
     AngleUnit m_angle = AngleUnit::Degrees;
     EffectiveField m_effective;

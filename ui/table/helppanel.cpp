@@ -28,9 +28,9 @@ QString areaText(Area area)
 
 QString factsText(const Field &field)
 {
-    return HelpPanel::tr("address %1 · %n byte(s) · %2 · %3", nullptr, field.size)
-        .arg(field.address)
-        .arg(areaText(field.area), accessText(field));
+    const QString size = field.size == 1 ? HelpPanel::tr("1 byte") : HelpPanel::tr("%1 bytes").arg(field.size);
+    return HelpPanel::tr("address %1 · %2 · %3 · %4")
+        .arg(QString::number(field.address), size, areaText(field.area), accessText(field));
 }
 
 QString meaningsText(const Field &field)
@@ -61,7 +61,7 @@ QString withUnits(const Field &field, const EffectiveField &effective, int resol
     const bool single = *from == *to;
     const auto raw = [](std::int64_t value) { return QString::number(value).replace(u'-', QChar(0x2212)); };
     QString text = single ? raw(*from) : raw(*from) + QStringLiteral(" … ") + raw(*to);
-    if (effective.unit != Unit::None) {
+    if (effective.unit != Unit::None || (single && !meaning(field, *from).isEmpty())) {
         const QString low = valueText(field, effective, resolution, *from, angle);
         const QString high = valueText(field, effective, resolution, *to, angle);
         text += single ? QStringLiteral(" (%1)").arg(low) : QStringLiteral(" (%1 … %2)").arg(low, high);

@@ -15,6 +15,7 @@ target_sources(dynascope_ui PRIVATE
     table/lockbar.cpp table/lockbar.h
     table/tableactions.cpp table/tableactions.h
     table/tableempty.cpp table/tableempty.h
+    table/tableheader.cpp table/tableheader.h
     table/tablemenu.cpp table/tablemenu.h
     table/tablepanel.cpp table/tablepanel.h
     table/tableroles.h

@@ -21,8 +21,7 @@ TableEmpty::TableEmpty(QWidget *parent)
     m_title->setObjectName(QStringLiteral("tableEmptyTitle"));
     m_text->setObjectName(QStringLiteral("tableEmptyText"));
     m_text->setWordWrap(true);
-    m_text->setMaximumWidth(420);
-    m_text->setMinimumWidth(240);
+    m_text->setFixedWidth(340); // a fixed width, or the layout asks for too little height
     m_text->setAlignment(Qt::AlignHCenter);
     m_text->setForegroundRole(QPalette::PlaceholderText);
     m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);

@@ -220,10 +220,14 @@ void TablePanel::currentChanged()
 {
     const QModelIndex cell = valueCell();
     m_help->showCell(cell);
-    if (m_model->devices().empty())
+    if (m_model->devices().empty()) {
         m_goals->setDevices({});
-    else
-        m_goals->setDevices(m_model->targets(cell.isValid() ? cell.column() : 0));
+        return;
+    }
+    const std::vector<Device *> targets = m_model->targets(cell.isValid() ? cell.column() : 0);
+    const bool several = m_model->devices().size() > 1;
+    m_goals->setDevices(targets, !several ? QString()
+                            : targets.size() > 1 ? tr("all %1").arg(targets.size()) : targets.front()->displayName());
 }
 
 void TablePanel::updateGroups()

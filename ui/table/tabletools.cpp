@@ -18,7 +18,7 @@ TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
 {
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 8, 8, 8);
-    layout->setSpacing(4);
+    layout->setSpacing(6);
     m_search->setObjectName(QStringLiteral("tableSearch"));
     m_search->setPlaceholderText(tr("Search name, address, help"));
     m_search->setToolTip(tr("Search the registers (Ctrl+F)"));
@@ -27,7 +27,6 @@ TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
     m_search->setMinimumWidth(140);
     m_search->installEventFilter(this);
     layout->addWidget(m_search, 1);
-    layout->addSpacing(4);
     connect(m_search, &QLineEdit::textChanged, this, [this](const QString &text) {
         m_filter.setSearch(text);
         emit filterChanged();
@@ -61,7 +60,6 @@ QToolButton *TableTools::addToggle(const char *objectName, const QString &text, 
     button->setText(text);
     button->setToolTip(toolTip);
     button->setCheckable(true);
-    button->setAutoRaise(true);
     layout()->addWidget(button);
     return button;
 }

@@ -2,9 +2,9 @@
 #include "ui/table/tableview.h"
 
 #include "ui/common/theme.h"
+#include "ui/table/tableheader.h"
 
 #include <QDrag>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QMimeData>
 #include <QPainter>
@@ -15,17 +15,27 @@ namespace {
 int defaultWidth(ColumnKind kind)
 {
     switch (kind) {
-    case ColumnKind::Name: return 204;
-    case ColumnKind::Plot: return 44;
-    case ColumnKind::Address: return 66;
-    case ColumnKind::Value: return 92;
-    case ColumnKind::Physical: return 176;
+    case ColumnKind::Name: return 184;
+    case ColumnKind::Plot: return 40;
+    case ColumnKind::Address: return 74;
+    case ColumnKind::Value: return 80;
+    case ColumnKind::Physical: return 164;
     case ColumnKind::Device: return 156;
-    case ColumnKind::Default: return 76;
-    case ColumnKind::Range: return 150;
-    case ColumnKind::Access: return 90;
+    case ColumnKind::Default: return 64;
+    case ColumnKind::Range: return 126;
+    case ColumnKind::Access: return 56;
     }
     return 80;
+}
+
+QColor selectionTint(const QPalette &palette)
+{
+    const QColor base = palette.color(QPalette::Active, QPalette::Base);
+    const ThemeColors &theme = colors(palette);
+    const float share = theme.dark ? 0.22F : 0.13F;
+    return QColor::fromRgbF(base.redF() + (theme.accent.redF() - base.redF()) * share,
+                            base.greenF() + (theme.accent.greenF() - base.greenF()) * share,
+                            base.blueF() + (theme.accent.blueF() - base.blueF()) * share);
 }
 
 } // namespace
@@ -47,10 +57,7 @@ TableView::TableView(QWidget *parent)
     setContextMenuPolicy(Qt::CustomContextMenu);
     setIndentation(16);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
-    header()->setStretchLastSection(true);
-    header()->setSectionsMovable(false);
-    header()->setMinimumSectionSize(36);
-    header()->setHighlightSections(false);
+    setHeader(new TableHeader(this)); // the view owns it
     connect(header(), &QHeaderView::sectionResized, this, [this](int section, int, int size) {
         const bool isLast = section == header()->count() - 1;
         if (!m_applying && !isLast && model())
@@ -61,7 +68,7 @@ TableView::TableView(QWidget *parent)
 void TableView::applyColumnWidths()
 {
     m_applying = true;
-    for (int section = 0; section + 1 < header()->count(); ++section) {
+    for (int section = 0; section < header()->count(); ++section) {
         const int kind = model()->headerData(section, Qt::Horizontal, KindRole).toInt();
         const auto kept = m_widths.find(kind);
         header()->resizeSection(section, kept != m_widths.end() ? kept->second : defaultWidth(ColumnKind(kind)));
@@ -153,7 +160,15 @@ void TableView::drawRow(QPainter *painter, const QStyleOptionViewItem &option, c
 {
     if (!fieldAt(index))
         painter->fillRect(option.rect, colors(option.palette).header);
-    QTreeView::drawRow(painter, option, index);
+    // A light tint in place of the full accent: units, marks and fading stay readable on it.
+    QStyleOptionViewItem quiet = option;
+    const QColor tint = selectionTint(option.palette);
+    const QColor text = option.palette.color(QPalette::Active, QPalette::Text);
+    for (const QPalette::ColorGroup group : {QPalette::Active, QPalette::Inactive}) {
+        quiet.palette.setColor(group, QPalette::Highlight, tint);
+        quiet.palette.setColor(group, QPalette::HighlightedText, text);
+    }
+    QTreeView::drawRow(painter, quiet, index);
 }
 
 void TableView::startDrag(Qt::DropActions /*actions*/)

@@ -89,6 +89,8 @@ void ValueEdit::say()
         m_hint->setWordWrap(true);
         m_hint->setMargin(6);
         m_hint->setAutoFillBackground(true);
+        m_hint->setBackgroundRole(QPalette::Window); // else both follow the grid's
+        m_hint->setForegroundRole(QPalette::WindowText);
         m_hint->setFrameShape(QFrame::StyledPanel);
     }
     if (!m_hint)

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/poller.h"
+#include "tests/support/fakeservos.h"
+#include "tests/support/testmain.h"
+
+using namespace dynascope;
+using namespace std::chrono_literals;
+
+namespace {
+
+PollSpan span(std::uint8_t id, std::chrono::milliseconds interval = 0ms)
+{
+    return {static_cast<quint32>(100 + id), {id, 132, 4}, interval};
+}
+
+Traits traits(std::uint8_t id, bool fast = false)
+{
+    Traits result;
+    result.id = id;
+    result.fastReads = fast;
+    return result;
+}
+
+/// "101=1 102=2 103:silent"
+QString toText(const Result<Batch> &batch)
+{
+    if (!batch)
+        return batch.error().text;
+    QStringList parts;
+    for (const PollValue &value : batch->values)
+        parts << QStringLiteral("%1%2").arg(value.device).arg(value.data.empty() ? QStringLiteral(":silent") : QStringLiteral("=%1").arg(value.data[0]));
+    return parts.join(QLatin1Char(' '));
+}
+
+} // namespace
+
+class TestPoller : public QObject
+{
+    Q_OBJECT
+
+    /// A bus with servos 1, 2, 3 that hold their ID at 132.
+    struct World {
+        World()
+            : servos(line)
+            , bus(line)
+            , poller(bus)
+        {
+            for (const int id : {1, 2, 3})
+                servos.servos[id].registers[132] = static_cast<std::uint8_t>(id);
+        }
+        void plan(std::vector<PollSpan> spans, bool fast = false)
+        {
+            poller.setPlan({std::move(spans), {traits(1, fast), traits(2, fast), traits(3, fast)}});
+        }
+        int sentOf(Instruction code) const
+        {
+            int count = 0;
+            for (const FakeLine::Sent &sent : line.sent)
+                count += sent.bytes[7] == static_cast<std::uint8_t>(code);
+            return count;
+        }
+        FakeLine line;
+        FakeServos servos;
+        Bus bus;
+        Poller poller;
+    };
+
+private slots:
+    void readsAllInOneExchange()
+    {
+        World world;
+        QVERIFY(world.poller.isIdle());
+        world.plan({span(1), span(2), span(3)}, true);
+        QVERIFY(!world.poller.isIdle());
+        const auto batch = world.poller.runCycle();
+        QCOMPARE(toText(batch), QStringLiteral("101=1 102=2 103=3"));
+        QVERIFY(batch->fullRate);
+        QVERIFY(batch->end > batch->begin);
+        QCOMPARE(world.line.sent.size(), std::size_t(1));
+        QCOMPARE(world.sentOf(Instruction::FastSyncRead), 1);
+    }
+
+    void keepsIntervals()
+    {
+        World world;
+        world.plan({span(1), span(2, 100ms)});
+        QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101=1 102=2"));
+        int both = 0, cycles = 0;
+        while (world.line.now() < 1s) {
+            QVERIFY(world.poller.nextDue() <= world.line.now());
+            both += toText(world.poller.runCycle()).contains(QStringLiteral("102"));
+            ++cycles;
+        }
+        QVERIFY2(both >= 9 && both <= 10, qPrintable(QString::number(both)));
+        QVERIFY(cycles > 500);
+    }
+
+    void isDueWhenItSaysSo()
+    {
+        World world;
+        world.plan({span(1, 100ms), span(2, 250ms)});
+        (void)world.poller.runCycle();
+        const LineTime due = world.poller.nextDue();
+        QVERIFY(due > world.line.now() + 90ms && due <= world.line.now() + 100ms);
+        const auto early = world.poller.runCycle();
+        QCOMPARE(toText(early), QString());
+        QVERIFY(!early->fullRate);
+        world.poller.setPlan({});
+        QVERIFY(world.poller.isIdle());
+        QCOMPARE(world.poller.nextDue(), LineTime::max());
+    }
+
+    void aSilentDeviceHidesNoOther()
+    {
+        World world;
+        world.servos.servos[1].silent = true;
+        world.plan({span(1), span(2), span(3)});
+        for (int i = 0; i < 3; ++i)
+            QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101:silent 102=2 103=3"));
+        // Then it is asked rarely, and the others at full rate.
+        const std::size_t before = world.line.sent.size();
+        const LineTime begin = world.line.now();
+        int cycles = 0;
+        for (; world.line.now() < begin + 1s; ++cycles)
+            QVERIFY(toText(world.poller.runCycle()).contains(QStringLiteral("102=2 103=3")));
+        const int pings = world.sentOf(Instruction::Ping);
+        QVERIFY2(pings < 20, qPrintable(QString::number(pings)));
+        QVERIFY(static_cast<int>(world.line.sent.size() - before) < cycles + 20);
+        // It returns by itself.
+        world.servos.servos[1].silent = false;
+        const LineTime back = world.line.now();
+        while (toText(world.poller.runCycle()) != QStringLiteral("101=1 102=2 103=3"))
+            QVERIFY(world.line.now() < back + 2500ms);
+    }
+
+    void aLoneSilentDeviceIsProbedWithBackOff()
+    {
+        World world;
+        world.servos.servos.clear();
+        world.plan({span(1)});
+        for (int i = 0; i < 3; ++i)
+            QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101:silent"));
+        LineTime before = world.line.now();
+        std::vector<LineTime> gaps;
+        for (int i = 0; i < 8; ++i) {
+            const LineTime due = world.poller.nextDue();
+            gaps.push_back(due - before);
+            QVERIFY(due > world.line.now());
+            Bytes ignored;
+            QVERIFY(world.line.read(ignored, due));
+            QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101:silent"));
+            before = world.line.now();
+        }
+        QVERIFY(gaps.front() <= 100ms);
+        QVERIFY(gaps.back() > 1900ms && gaps.back() <= 2s);
+    }
+
+    void fallsBackFromFastReads()
+    {
+        World world;
+        for (const int id : {1, 2, 3})
+            world.servos.servos[id].knowsFast = id == 1;
+        world.plan({span(1), span(2), span(3)}, true);
+        for (int i = 0; i < 6; ++i)
+            QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101=1 102=2 103=3"));
+        const int fast = world.sentOf(Instruction::FastSyncRead);
+        for (int i = 0; i < 10; ++i)
+            QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101=1 102=2 103=3"));
+        QCOMPARE(world.sentOf(Instruction::FastSyncRead), fast); // learned
+    }
+
+    void tellsStop()
+    {
+        FakeLine line;
+        FakeServos servos(line);
+        servos.servos[1];
+        std::atomic<bool> stop = false;
+        Bus bus(line, &stop);
+        Poller poller(bus);
+        poller.setPlan({{span(1)}, {traits(1)}});
+        stop = true;
+        QCOMPARE(poller.runCycle().error().kind, ErrorKind::Stopped);
+        stop = false;
+        QVERIFY(poller.runCycle());
+    }
+};
+
+DYNASCOPE_CORE_TEST(TestPoller)
+#include "tst_poller.moc"
