@@ -170,6 +170,8 @@ void Connector::onScanned(int found, const QString &trouble)
     emit changed();
     if (!scanned || scanned->state() != BusThread::State::Open)
         return;
+    if (m_workbench.scanner.wasCancelled())
+        return; // who did it knows
     if (!trouble.isEmpty()) {
         emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}});
     } else if (found == 0) {

@@ -77,8 +77,10 @@ void DevicePanel::makeTree()
         if (!action)
             continue;
         // Del belongs to the tree alone: elsewhere it edits text. The rest works in the whole window.
-        action->setShortcutContext(action->shortcut() == QKeySequence(Qt::Key_Delete) ? Qt::WidgetShortcut
-                                                                                        : Qt::WindowShortcut);
+        // Delete and F2 mean something else where the table or an editor has the focus.
+        const bool ofTheTree = action->shortcut() == QKeySequence(Qt::Key_Delete)
+            || action->shortcut() == QKeySequence(Qt::Key_F2);
+        action->setShortcutContext(ofTheTree ? Qt::WidgetShortcut : Qt::WindowShortcut);
         m_tree->addAction(action);
     }
     m_tree->expandAll();
