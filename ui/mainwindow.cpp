@@ -80,6 +80,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
         m_bar->setPort(Connector::lastPort(), Connector::lastBaudRate(Connector::lastPort()));
     restoreParts();
     onLines();
+    m_pages->currentWidget()->setFocus();
 }
 
 MainWindow::~MainWindow() = default;
@@ -89,8 +90,8 @@ void MainWindow::build()
     m_stopBar->setObjectName(QStringLiteral("stopBar"));
     m_stopBar->setDismissable(false);
     m_devices->setMinimumWidth(216);
-    m_table->setMinimumSize(360, 180);
-    m_plots->setMinimumSize(280, 160);
+    m_table->setMinimumSize(360, 260);
+    m_plots->setMinimumSize(280, 140);
     m_inner->addWidget(m_table);
     m_inner->addWidget(m_plots);
     m_outer->addWidget(m_devices);
@@ -201,6 +202,8 @@ void MainWindow::onLines()
         m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
         if (any)
             focusPane(0);
+        else
+            m_welcome->setFocus();
     }
     setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
     countDevices();

@@ -22,19 +22,15 @@ constexpr LineTime DrainMargin = 2ms;
 
 /// What one exchange waits by.
 struct Bus::Waiting {
-    LineTime begin{};     ///< write start
-    LineTime origin{};    ///< from when the present deadline counts: t0, or the end of the predecessor's packet
-    LineTime limit{};     ///< whatever comes, not longer than this
+    LineTime begin{};  ///< write start
+    LineTime origin{}; ///< from when the present deadline counts: t0, or the end of the predecessor's packet
+    LineTime limit{};  ///< whatever comes, not longer than this
     LineTime lastByte{};
     int highestId = MaximumId;
     std::function<void(const Reply &)> found;
 };
 
-Bus::Bus(Line &line, const std::atomic<bool> *stop)
-    : m_line(line)
-    , m_stop(stop)
-{
-}
+Bus::Bus(Line &line, const std::atomic<bool> *stop) : m_line(line), m_stop(stop) { }
 
 void Bus::setTraits(std::vector<Traits> traits)
 {
@@ -98,8 +94,8 @@ Result<ExchangeResult> Bus::attempt(const Request &request)
             ExchangeResult result;
             result.replies.push_back(tl::unexpected(silence));
             for (std::size_t i = 1; i < request.replies.size(); ++i)
-                result.replies.push_back(tl::unexpected(
-                    messages::chainBroken(request.replies[i].id, request.replies.front().id)));
+                result.replies.push_back(
+                    tl::unexpected(messages::chainBroken(request.replies[i].id, request.replies.front().id)));
             result.brokenAt = 0;
             return result;
         }

@@ -90,7 +90,7 @@ private:
     BusStatistics m_statistics;
     Tap m_tap;
     std::optional<Error> m_lost;
-    Bytes m_received;         ///< what the last read brought
+    Bytes m_received; ///< what the last read brought
     Bytes m_lastSent;
     LineTime m_sentBy{};      ///< when the last byte of the last packet has left
     bool m_echoes = false;    ///< the adapter returns what is sent

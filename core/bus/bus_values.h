@@ -21,11 +21,11 @@ struct Observations {
     std::size_t noiseBytes = 0;
     int damagedPackets = 0;
     std::vector<std::uint8_t> damagedIds; ///< as they stood in those packets; may be damaged themselves
-    int strayPackets = 0;            ///< valid, but not asked for
+    int strayPackets = 0;                 ///< valid, but not asked for
     std::vector<std::uint8_t> strayIds;
-    bool echo = false;               ///< the request itself came back first
+    bool echo = false; ///< the request itself came back first
     int retries = 0;
-    LineTime roundTrip{};            ///< write to last reply
+    LineTime roundTrip{}; ///< write to last reply
 };
 
 /// Everything a request brought. One entry per expected reply, in the order of the request; with a broadcast Ping one
@@ -40,14 +40,14 @@ struct ExchangeResult {
 struct BusStatistics {
     quint64 exchanges = 0;
     quint64 replies = 0;
-    quint64 timeouts = 0;    ///< nothing received, no header, cut off
+    quint64 timeouts = 0; ///< nothing received, no header, cut off
     quint64 crcErrors = 0;
     quint64 lengthErrors = 0;
     quint64 strays = 0;
     quint64 retries = 0;
     quint64 bytesSent = 0;
     quint64 bytesReceived = 0;
-    LineTime busy{};         ///< time spent inside exchanges
+    LineTime busy{}; ///< time spent inside exchanges
 
     friend bool operator==(const BusStatistics &, const BusStatistics &) = default;
 };

@@ -30,8 +30,8 @@ public:
     /// Delivers nothing any more: close() first where a job's end matters.
     ~BusThread() override;
 
-    /// Waits for the exchange in flight (an exclusive scope: for its end), closes the line and delivers Cancelled for what
-    /// was queued, before it returns.
+    /// Waits for the exchange in flight (an exclusive scope: for its end), closes the line and delivers Cancelled for
+    /// what was queued, before it returns.
     void close();
 
     QString name() const { return m_name; }
@@ -40,17 +40,18 @@ public:
     int baudRate() const;                   ///< the working baud rate
 
     /// Queues `job` for the bus thread and delivers its value to `done` on the GUI thread, unless `context` has died by
-    /// then (a null context never does). Exactly one delivery: the value, the job's error, Cancelled, Stopped or PortLost.
+    /// then (a null context never does). Exactly one delivery: the value, the job's error, Cancelled, Stopped or
+    /// PortLost.
     template <typename T>
     JobId run(Priority priority, QObject *context, std::function<Result<T>(JobContext &)> job,
-              std::function<void(Result<T>)> done)
+        std::function<void(Result<T>)> done)
     {
         return enqueue(priority, context,
-                       [job = std::move(job), done = std::move(done)](JobContext *jobContext, const Error &refusal) {
-                           auto value = std::make_shared<Result<T>>(
-                               jobContext ? job(*jobContext) : Result<T>(tl::unexpected<Error>(refusal)));
-                           return std::function<void()>([value, done] { done(std::move(*value)); });
-                       });
+            [job = std::move(job), done = std::move(done)](JobContext *jobContext, const Error &refusal) {
+                auto value = std::make_shared<Result<T>>(
+                    jobContext ? job(*jobContext) : Result<T>(tl::unexpected<Error>(refusal)));
+                return std::function<void()>([value, done] { done(std::move(*value)); });
+            });
     }
     void cancel(JobId job); ///< waiting or running; it reports Cancelled at its next checkpoint
 
@@ -67,7 +68,7 @@ public:
     void setStopTargets(std::vector<StopTarget> targets); ///< those packets are made now
     void stop();                                          ///< returns at once
     bool isStopped() const { return m_stopped; }
-    void release() { m_stopped = false; }                 ///< a person did
+    void release() { m_stopped = false; } ///< a person did
     /// @}
 
 signals:

@@ -21,7 +21,7 @@ constexpr LineTime TellInterval = 250ms;
 class BusWorker::Context final : public JobContext
 {
 public:
-    Context(BusWorker &worker, const QueuedJob &job) : m_worker(worker), m_job(job) {}
+    Context(BusWorker &worker, const QueuedJob &job) : m_worker(worker), m_job(job) { }
 
     Bus &bus() override { return *m_worker.m_bus; }
 
@@ -70,11 +70,7 @@ private:
 };
 
 BusWorker::BusWorker(BusThread &owner, LineFactory &factory, Outbox &outbox, int baudRate)
-    : m_owner(owner)
-    , m_factory(factory)
-    , m_outbox(outbox)
-    , m_name(owner.name())
-    , m_workingBaud(baudRate)
+    : m_owner(owner), m_factory(factory), m_outbox(outbox), m_name(owner.name()), m_workingBaud(baudRate)
 {
     setObjectName(QStringLiteral("bus ") + m_name);
 }

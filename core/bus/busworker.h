@@ -62,8 +62,8 @@ private:
     std::unique_ptr<Poller> m_poller;
     StopPlan m_stopPlan;
     int m_exclusive = 0;
-    LineTime m_lookedAt{};   ///< when the idle port was last looked at
-    LineTime m_toldAt{};     ///< when statistics were last told
+    LineTime m_lookedAt{}; ///< when the idle port was last looked at
+    LineTime m_toldAt{};   ///< when statistics were last told
 };
 
 } // namespace dynascope

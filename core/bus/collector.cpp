@@ -114,7 +114,8 @@ void Collector::takeAnyone(const StatusPacket &status, LineTime at)
     }
     m_lastPacketAt = at;
     ++m_answers;
-    Slot slot{{status.id, PingReplyLength}, Reply{status.id, status.error, status.alert, status.parameters, at}, false, {}};
+    Slot slot{
+        {status.id, PingReplyLength}, Reply{status.id, status.error, status.alert, status.parameters, at}, false, {}};
     m_slots.push_back(slot);
     if (m_found)
         m_found(*slot.reply);
@@ -143,7 +144,8 @@ void Collector::takeDamaged(const Parser::Damaged &damaged, LineTime at)
 void Collector::salvageBlocks(ByteView raw, LineTime at)
 {
     constexpr std::size_t BlocksAt = HeaderSize + 1;
-    if (raw.size() < BlocksAt || raw[4] != BroadcastId || raw[HeaderSize] != static_cast<std::uint8_t>(Instruction::Status))
+    if (raw.size() < BlocksAt || raw[4] != BroadcastId
+        || raw[HeaderSize] != static_cast<std::uint8_t>(Instruction::Status))
         return;
     std::size_t begin = BlocksAt;
     for (Slot &slot : m_slots) {
@@ -157,7 +159,7 @@ void Collector::salvageBlocks(ByteView raw, LineTime at)
             slot.reply = Reply{slot.expected.id, error, (raw[begin] & AlertBit) != 0, {}, at};
             if (error == DeviceError::None)
                 slot.reply->data.assign(raw.begin() + static_cast<std::ptrdiff_t>(dataAt),
-                                        raw.begin() + static_cast<std::ptrdiff_t>(crcAt));
+                    raw.begin() + static_cast<std::ptrdiff_t>(crcAt));
             ++m_answers;
             m_lastPacketAt = at;
         }

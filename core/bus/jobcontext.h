@@ -17,8 +17,8 @@ public:
 
     virtual Bus &bus() = 0;
 
-    /// Between exchanges: lets waiting jobs of higher priority run, puts this job's baud rate back, and says whether to go
-    /// on: Cancelled, Stopped, PortLost.
+    /// Between exchanges: lets waiting jobs of higher priority run, puts this job's baud rate back, and says whether to
+    /// go on: Cancelled, Stopped, PortLost.
     virtual Result<void> checkpoint() = 0;
 
     /// Runs `note` on the GUI thread if the job's context object still lives there. For progress.

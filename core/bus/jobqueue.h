@@ -16,7 +16,7 @@ struct Recipient {
     QPointer<QObject> object;
     bool always = false; ///< no object was given
 
-    explicit Recipient(QObject *context) : object(context), always(context == nullptr) {}
+    explicit Recipient(QObject *context) : object(context), always(context == nullptr) { }
     bool isThere() const { return always || object; }
 };
 

@@ -39,29 +39,29 @@ QString durationText(LineTime duration)
 Error nothingReceived(std::uint8_t id, LineTime waited)
 {
     return {ErrorKind::NothingReceived,
-            QStringLiteral("%1 did not answer: nothing was received within %2").arg(device(id), durationText(waited))};
+        QStringLiteral("%1 did not answer: nothing was received within %2").arg(device(id), durationText(waited))};
 }
 
 Error noHeader(std::uint8_t id, std::size_t bytes)
 {
-    return {ErrorKind::NoHeader, QStringLiteral("%1 did not answer: %2 came, but no packet began in them (noise, or "
-                                                "somebody at another baud rate)")
-                                     .arg(device(id), bytesText(bytes))};
+    return {ErrorKind::NoHeader,
+        QStringLiteral("%1 did not answer: %2 came, but no packet began in them (noise, or "
+                       "somebody at another baud rate)")
+            .arg(device(id), bytesText(bytes))};
 }
 
 Error cutOff(std::uint8_t id, std::size_t have, std::size_t want)
 {
     if (want == 0) // silent before its length field
         return {ErrorKind::CutOff,
-                QStringLiteral("the answer of %1 was cut off after %2").arg(device(id), bytesText(have))};
+            QStringLiteral("the answer of %1 was cut off after %2").arg(device(id), bytesText(have))};
     return {ErrorKind::CutOff,
-            QStringLiteral("the answer of %1 was cut off after %2 of %3").arg(device(id)).arg(have).arg(bytesText(want))};
+        QStringLiteral("the answer of %1 was cut off after %2 of %3").arg(device(id)).arg(have).arg(bytesText(want))};
 }
 
 Error damagedCrc(std::uint8_t id)
 {
-    return {ErrorKind::DamagedCrc,
-            QStringLiteral("the answer of %1 came damaged: its CRC is wrong").arg(device(id))};
+    return {ErrorKind::DamagedCrc, QStringLiteral("the answer of %1 came damaged: its CRC is wrong").arg(device(id))};
 }
 
 Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others)
@@ -70,37 +70,40 @@ Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others)
     for (const std::uint8_t other : others)
         names << QString::number(other);
     names.removeDuplicates();
-    return {ErrorKind::WrongId, QStringLiteral("%1 did not answer, but %2 %3 did")
-                                    .arg(device(id), names.size() > 1 ? QStringLiteral("devices") : QStringLiteral("device"),
-                                         names.join(QStringLiteral(", ")))};
+    return {ErrorKind::WrongId,
+        QStringLiteral("%1 did not answer, but %2 %3 did")
+            .arg(device(id), names.size() > 1 ? QStringLiteral("devices") : QStringLiteral("device"),
+                names.join(QStringLiteral(", ")))};
 }
 
 Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want)
 {
-    return {ErrorKind::WrongLength, QStringLiteral("%1 answered with %2 where %3 were asked for")
-                                        .arg(device(id), bytesText(have), QString::number(want))};
+    return {ErrorKind::WrongLength,
+        QStringLiteral("%1 answered with %2 where %3 were asked for")
+            .arg(device(id), bytesText(have), QString::number(want))};
 }
 
 Error refused(std::uint8_t id, DeviceError error)
 {
     return {ErrorKind::Refused,
-            QStringLiteral("%1 refused: %2, %3").arg(device(id), deviceErrorName(error), deviceErrorReason(error)),
-            static_cast<std::uint8_t>(error)};
+        QStringLiteral("%1 refused: %2, %3").arg(device(id), deviceErrorName(error), deviceErrorReason(error)),
+        static_cast<std::uint8_t>(error)};
 }
 
 Error chainBroken(std::uint8_t id, std::uint8_t culprit)
 {
-    return {ErrorKind::NothingReceived, QStringLiteral("%1 was not heard: %2, asked before it, did not finish its answer")
-                                            .arg(device(id), device(culprit))};
+    return {ErrorKind::NothingReceived,
+        QStringLiteral("%1 was not heard: %2, asked before it, did not finish its answer")
+            .arg(device(id), device(culprit))};
 }
 
 Error silentByLevel(std::uint8_t id, int statusReturnLevel)
 {
     return {ErrorKind::NothingReceived,
-            QStringLiteral("%1 did not answer: its Status Return Level %2 lets it answer only %3")
-                .arg(device(id))
-                .arg(statusReturnLevel)
-                .arg(statusReturnLevel == 0 ? QStringLiteral("Ping") : QStringLiteral("Ping and Read"))};
+        QStringLiteral("%1 did not answer: its Status Return Level %2 lets it answer only %3")
+            .arg(device(id))
+            .arg(statusReturnLevel)
+            .arg(statusReturnLevel == 0 ? QStringLiteral("Ping") : QStringLiteral("Ping and Read"))};
 }
 
 Error stopped()
@@ -120,36 +123,39 @@ Error closed(const QString &port)
 
 Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack)
 {
-    return {ErrorKind::NotConfirmed, QStringLiteral("%1 took the value, but reads back %2 instead of %3")
-                                         .arg(device(id), hexText(readBack), hexText(written))};
+    return {ErrorKind::NotConfirmed,
+        QStringLiteral("%1 took the value, but reads back %2 instead of %3")
+            .arg(device(id), hexText(readBack), hexText(written))};
 }
 
 Error packetTooLong(std::size_t bytes, std::size_t limit)
 {
     return {ErrorKind::InvalidArgument,
-            QStringLiteral("a packet of %1 would be needed; devices take %2 at most").arg(bytesText(bytes)).arg(limit)};
+        QStringLiteral("a packet of %1 would be needed; devices take %2 at most").arg(bytesText(bytes)).arg(limit)};
 }
 
 Error portNotFound(const QString &port)
 {
     return {ErrorKind::PortNotFound,
-            QStringLiteral("there is no port %1: is the adapter plugged in, and the name right?").arg(port)};
+        QStringLiteral("there is no port %1: is the adapter plugged in, and the name right?").arg(port)};
 }
 
 Error portForbidden(const QString &port)
 {
-    return {ErrorKind::PortForbidden, QStringLiteral("you may not use %1: add yourself to the group dialout (sudo usermod "
-                                                     "-aG dialout $USER), then log out and in again")
-                                          .arg(port)};
+    return {ErrorKind::PortForbidden,
+        QStringLiteral("you may not use %1: add yourself to the group dialout (sudo usermod "
+                       "-aG dialout $USER), then log out and in again")
+            .arg(port)};
 }
 
 Error portBusy(const QString &port, const QString &holder)
 {
     if (!holder.isEmpty())
         return {ErrorKind::PortBusy, QStringLiteral("%1 is in use by %2: close that first").arg(port, holder)};
-    return {ErrorKind::PortBusy, QStringLiteral("%1 is in use by another program: close that first (DYNAMIXEL Wizard, a "
-                                                "robot's controller, a terminal, or this program started twice)")
-                                     .arg(port)};
+    return {ErrorKind::PortBusy,
+        QStringLiteral("%1 is in use by another program: close that first (DYNAMIXEL Wizard, a "
+                       "robot's controller, a terminal, or this program started twice)")
+            .arg(port)};
 }
 
 Error portNotSerial(const QString &port)
@@ -171,10 +177,8 @@ Error rateRefused(const QString &port, int wanted, int made)
 {
     if (made <= 0)
         return {ErrorKind::PortUnsuitable, QStringLiteral("%1 can't do %2 baud").arg(port).arg(wanted)};
-    return {ErrorKind::PortUnsuitable, QStringLiteral("%1 can't do %2 baud: it would send at %3, more than 3 % off")
-                                           .arg(port)
-                                           .arg(wanted)
-                                           .arg(made)};
+    return {ErrorKind::PortUnsuitable,
+        QStringLiteral("%1 can't do %2 baud: it would send at %3, more than 3 % off").arg(port).arg(wanted).arg(made)};
 }
 
 } // namespace dynascope::messages

@@ -37,8 +37,8 @@ Result<std::vector<Result<ReadReply>>> readMany(Bus &bus, std::span<const Span> 
 /// Sync Write or Bulk Write; nobody answers.
 Result<void> writeMany(Bus &bus, std::span<const SpanData> writes);
 
-/// Writes one register and reads it back until it shows (EEPROM takes a while). The value read is returned; NotConfirmed
-/// where it differs in the end.
+/// Writes one register and reads it back until it shows (EEPROM takes a while). The value read is returned;
+/// NotConfirmed where it differs in the end.
 Result<Bytes> writeVerified(Bus &bus, const SpanData &data);
 
 /// A device as a scan saw it.

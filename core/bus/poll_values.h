@@ -27,9 +27,9 @@ struct PollValue {
     std::uint16_t address = 0;
     std::uint16_t length = 0; ///< as asked for
     Bytes data;               ///< empty where it failed
-    Error error;        ///< where data is empty
+    Error error;              ///< where data is empty
     bool alert = false;
-    LineTime at{};      ///< when the reply had come, or when waiting for it ended
+    LineTime at{}; ///< when the reply had come, or when waiting for it ended
 };
 
 /// What one poll cycle brought, in the order of the plan.

@@ -10,9 +10,9 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int SilentCycles = 3;       ///< as often missed, a device is asked rarely
-constexpr int FastFailures = 2;       ///< as often, and it doesn't know fast reads
-constexpr int Passes = 3;             ///< of one cycle, while a broken chain hides devices
+constexpr int SilentCycles = 3; ///< as often missed, a device is asked rarely
+constexpr int FastFailures = 2; ///< as often, and it doesn't know fast reads
+constexpr int Passes = 3;       ///< of one cycle, while a broken chain hides devices
 constexpr LineTime FirstBackOff = 100ms;
 constexpr LineTime LongestBackOff = 2s;
 
@@ -32,10 +32,7 @@ struct Poller::Cycle {
     std::set<std::uint8_t> fastMissed; ///< did not answer a fast read in this cycle
 };
 
-Poller::Poller(Bus &bus)
-    : m_bus(bus)
-{
-}
+Poller::Poller(Bus &bus) : m_bus(bus) { }
 
 void Poller::setPlan(PollPlan plan)
 {
@@ -94,8 +91,8 @@ Result<Batch> Poller::runCycle()
     return batch;
 }
 
-/// Those due; of the sleeping devices those that a Ping finds awake. Who was silent last time goes to the end of its group,
-/// where it breaks no chain.
+/// Those due; of the sleeping devices those that a Ping finds awake. Who was silent last time goes to the end of its
+/// group, where it breaks no chain.
 Result<void> Poller::collectDue(Cycle &cycle)
 {
     const LineTime now = m_bus.line().now();
@@ -123,7 +120,8 @@ Result<void> Poller::collectDue(Cycle &cycle)
             cycle.open.push_back(i);
         cycle.values[i] = value;
     }
-    std::ranges::stable_sort(cycle.open, {}, [this](std::size_t i) { return m_devices[m_plan.spans[i].span.id].silent; });
+    std::ranges::stable_sort(
+        cycle.open, {}, [this](std::size_t i) { return m_devices[m_plan.spans[i].span.id].silent; });
     return {};
 }
 
@@ -169,8 +167,8 @@ Result<void> Poller::readPass(Cycle &cycle, bool lastPass)
     return {};
 }
 
-Result<void> Poller::runExchange(Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again,
-                                 bool lastPass)
+Result<void> Poller::runExchange(
+    Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass)
 {
     Result<ExchangeResult> result = m_bus.exchange(planned.request, 0);
     if (!result)

@@ -9,8 +9,8 @@ namespace dynascope {
 
 /// Runs a PollPlan cycle by cycle. Bus thread; no timer of its own: whoever owns it asks when the next cycle is due.
 ///
-/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself; a device that does
-/// not know fast reads falls back to Sync Read for as long as its traits stay.
+/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself; a device that
+/// does not know fast reads falls back to Sync Read for as long as its traits stay.
 class Poller
 {
 public:
@@ -26,10 +26,10 @@ public:
 
 private:
     struct DeviceState {
-        int silent = 0;        ///< cycles without an answer in a row
-        LineTime probeAt{};    ///< while silent: when to ask again
-        LineTime backOff{};    ///< until the probe after that
-        int fastFailures = 0;  ///< fast reads that failed where a plain one brought the value
+        int silent = 0;       ///< cycles without an answer in a row
+        LineTime probeAt{};   ///< while silent: when to ask again
+        LineTime backOff{};   ///< until the probe after that
+        int fastFailures = 0; ///< fast reads that failed where a plain one brought the value
     };
     struct Cycle;
 
@@ -37,7 +37,8 @@ private:
     Result<void> probe(std::uint8_t id);
     Result<void> collectDue(Cycle &cycle);
     Result<void> readPass(Cycle &cycle, bool lastPass);
-    Result<void> runExchange(Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass);
+    Result<void> runExchange(
+        Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass);
     void answered(std::uint8_t id, bool afterFastFailure);
     void missed(std::uint8_t id);
     void schedule(Cycle &cycle);

@@ -29,7 +29,7 @@ std::size_t parameterLimit(int receiveBuffer)
 class ReadPlanner
 {
 public:
-    ReadPlanner(std::span<const Span> spans, std::span<const Traits> traits) : m_spans(spans), m_traits(traits) {}
+    ReadPlanner(std::span<const Span> spans, std::span<const Traits> traits) : m_spans(spans), m_traits(traits) { }
 
     std::vector<PlannedExchange> plan()
     {
@@ -66,7 +66,8 @@ private:
             Indices group, others;
             for (const std::size_t i : open) {
                 const Span &span = m_spans[i];
-                const bool fits = span.address == first.address && span.length == first.length && !holds(group, span.id);
+                const bool fits =
+                    span.address == first.address && span.length == first.length && !holds(group, span.id);
                 (fits ? group : others).push_back(i);
             }
             open = others;
@@ -129,8 +130,8 @@ private:
                 ++end;
             }
             addExchange(Indices(group.begin() + static_cast<std::ptrdiff_t>(begin),
-                                group.begin() + static_cast<std::ptrdiff_t>(end)),
-                        sync, fast);
+                            group.begin() + static_cast<std::ptrdiff_t>(end)),
+                sync, fast);
             begin = end;
         }
     }

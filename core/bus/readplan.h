@@ -5,8 +5,8 @@
 
 namespace dynascope {
 
-/// The cheapest requests for these spans. Devices stand in each request in the order of `spans`. Devices not in `traits`
-/// are taken for factory-fresh. Pure.
+/// The cheapest requests for these spans. Devices stand in each request in the order of `spans`. Devices not in
+/// `traits` are taken for factory-fresh. Pure.
 std::vector<PlannedExchange> planReads(std::span<const Span> spans, std::span<const Traits> traits);
 
 /// Sync Writes where several have the same address and length, else Bulk Writes. Pure.

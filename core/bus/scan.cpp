@@ -69,7 +69,7 @@ std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Foun
 
 /// Something answered the broadcast that could not be read: looks for it one ID at a time.
 Result<void> probeSuspects(Bus &bus, const std::set<std::uint8_t> &ids, int baudRate, std::vector<Found> &devices,
-                           const std::function<void(const Found &)> &found)
+    const std::function<void(const Found &)> &found)
 {
     for (const std::uint8_t id : ids) {
         const Result<ExchangeResult> answer = bus.exchange(pingRequest(id), 1);

@@ -15,11 +15,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr LineTime Scheduling = 5ms;         ///< what a desktop may let a thread wait
-constexpr LineTime UnknownAdapter = 16ms;    ///< FTDI's default latency timer
-constexpr LineTime PseudoTerminal = 50ms;    ///< another process answers
-constexpr int WriteTimeout = 2000;           ///< ms; only a stuck driver takes that long
-constexpr double Tolerance = 0.03;           ///< what UARTs bear
+constexpr LineTime Scheduling = 5ms;      ///< what a desktop may let a thread wait
+constexpr LineTime UnknownAdapter = 16ms; ///< FTDI's default latency timer
+constexpr LineTime PseudoTerminal = 50ms; ///< another process answers
+constexpr int WriteTimeout = 2000;        ///< ms; only a stuck driver takes that long
+constexpr double Tolerance = 0.03;        ///< what UARTs bear
 
 LineTime defaultAllowance(const QString &path)
 {
@@ -31,9 +31,7 @@ LineTime defaultAllowance(const QString &path)
 } // namespace
 
 SerialLine::SerialLine(QString name, posix::PortGuard guard)
-    : m_name(std::move(name))
-    , m_guard(std::move(guard))
-    , m_port(std::make_unique<QSerialPort>())
+    : m_name(std::move(name)), m_guard(std::move(guard)), m_port(std::make_unique<QSerialPort>())
 {
 }
 

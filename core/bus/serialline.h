@@ -10,8 +10,8 @@ QT_END_NAMESPACE
 
 namespace dynascope {
 
-/// A serial port, for this program alone. Blocking, without an event loop, on the thread that opened it, which must be a
-/// QThread.
+/// A serial port, for this program alone. Blocking, without an event loop, on the thread that opened it, which must be
+/// a QThread.
 class SerialLine final : public Line
 {
 public:

@@ -86,8 +86,7 @@ Result<PortGuard> PortGuard::take(const QString &name)
 }
 
 PortGuard::PortGuard(PortGuard &&other) noexcept
-    : m_descriptor(std::exchange(other.m_descriptor, -1))
-    , m_path(std::move(other.m_path))
+    : m_descriptor(std::exchange(other.m_descriptor, -1)), m_path(std::move(other.m_path))
 {
 }
 
@@ -102,7 +101,8 @@ Wait waitReadable(int descriptor, LineTime duration)
     pollfd entry{descriptor, POLLIN, 0};
     const auto nanoseconds = std::max<LineTime::rep>(0, duration.count());
 #ifdef __linux__
-    const timespec limit{static_cast<time_t>(nanoseconds / 1'000'000'000), static_cast<long>(nanoseconds % 1'000'000'000)};
+    const timespec limit{
+        static_cast<time_t>(nanoseconds / 1'000'000'000), static_cast<long>(nanoseconds % 1'000'000'000)};
     const int ready = ::ppoll(&entry, 1, &limit, nullptr);
 #else
     const int ready = ::poll(&entry, 1, static_cast<int>((nanoseconds + 999'999) / 1'000'000));

@@ -13,8 +13,8 @@ namespace dynascope::posix {
 class PortGuard
 {
 public:
-    /// Follows symbolic links first. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable; `name` is for the
-    /// messages.
+    /// Follows symbolic links first. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable; `name` is for
+    /// the messages.
     static Result<PortGuard> take(const QString &name);
 
     PortGuard(PortGuard &&other) noexcept;
@@ -24,7 +24,7 @@ public:
     const QString &path() const { return m_path; } ///< with links resolved: "/dev/ttyUSB0"
 
 private:
-    PortGuard(int descriptor, QString path) : m_descriptor(descriptor), m_path(std::move(path)) {}
+    PortGuard(int descriptor, QString path) : m_descriptor(descriptor), m_path(std::move(path)) { }
 
     int m_descriptor;
     QString m_path;

@@ -44,8 +44,7 @@ SpanData torqueOff(const StopTarget &target)
 
 } // namespace
 
-StopPlan::StopPlan(std::vector<StopTarget> targets)
-    : m_targets(std::move(targets))
+StopPlan::StopPlan(std::vector<StopTarget> targets) : m_targets(std::move(targets))
 {
     for (const int baudRate : bauds())
         m_packets[baudRate] = make(baudRate);
@@ -152,9 +151,8 @@ std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int wor
 {
     std::vector<StopTarget> targets = plan.targets();
     // Those at the working rate first, then rate by rate: few switches.
-    std::ranges::stable_sort(targets, {}, [workingBaud](const StopTarget &target) {
-        return target.baudRate == workingBaud ? 0 : target.baudRate;
-    });
+    std::ranges::stable_sort(targets, {},
+        [workingBaud](const StopTarget &target) { return target.baudRate == workingBaud ? 0 : target.baudRate; });
     std::vector<StopOutcome> outcomes;
     for (const StopTarget &target : targets) {
         outcomes.push_back(verifyOne(bus, target, alsoTry));

@@ -8,8 +8,8 @@
 
 namespace dynascope {
 
-/// The torque-off packets of all known devices, made before they are needed: for each baud rate Sync Writes to each model's
-/// own Torque Enable. Never a broadcast Write: 64 is EEPROM in some families.
+/// The torque-off packets of all known devices, made before they are needed: for each baud rate Sync Writes to each
+/// model's own Torque Enable. Never a broadcast Write: 64 is EEPROM in some families.
 class StopPlan
 {
 public:
@@ -29,12 +29,12 @@ private:
     std::vector<Bytes> m_elsewhere; ///< at a rate where nobody is listed
 };
 
-/// Sends the packets at the line's present baud rate as soon as the wire is free, again after 2 ms of quiet, then at the
-/// other bauds, and goes back to `workingBaud`. Heeds no stop flag. Fails with PortLost only.
+/// Sends the packets at the line's present baud rate as soon as the wire is free, again after 2 ms of quiet, then at
+/// the other bauds, and goes back to `workingBaud`. Heeds no stop flag. Fails with PortLost only.
 Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
-/// Reads each device's Torque Enable back, at its baud rate or else at `alsoTry`; sends its packet once more where it still
-/// says 1. Ends early, with nothing, where STOP is pressed again. The line is left at `workingBaud`.
+/// Reads each device's Torque Enable back, at its baud rate or else at `alsoTry`; sends its packet once more where it
+/// still says 1. Ends early, with nothing, where STOP is pressed again. The line is left at `workingBaud`.
 std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud, int alsoTry);
 
 } // namespace dynascope

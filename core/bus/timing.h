@@ -9,13 +9,14 @@
 namespace dynascope::timing {
 
 constexpr LineTime SlotOfBroadcastPing = std::chrono::milliseconds(3); ///< of an absent lower ID
-constexpr LineTime Slice = std::chrono::milliseconds(1); ///< longest wait without a look at the stop flag
+constexpr LineTime Slice = std::chrono::milliseconds(1);               ///< longest wait without a look at the stop flag
 
 /// From the end of a request to the begin of its reply, return delay not counted. EEPROM writes take tens of
 /// milliseconds, Clear and Backup up to seconds.
 LineTime processing(Instruction instruction);
 
-/// A packet that began and is silent for longer than this is cut off: max(1.5 ms, 10 byte times) and what the host adds.
+/// A packet that began and is silent for longer than this is cut off: max(1.5 ms, 10 byte times) and what the host
+/// adds.
 LineTime silence(const Line &line);
 
 /// Bytes of a status packet with that many parameters, stuffing at its worst.

@@ -10,11 +10,11 @@ namespace dynascope {
 /// registers; the bus includes no table.
 struct Traits {
     std::uint8_t id = 0;
-    int baudRate = 57600;                             ///< bits per second
-    std::chrono::microseconds returnDelay{508};       ///< 508 µs until Return Delay Time has been read
-    std::uint8_t statusReturnLevel = 2;               ///< 0 Ping only, 1 Ping and Read, 2 all
-    bool fastReads = false;                           ///< Fast Sync Read and Fast Bulk Read, by model and firmware
-    int receiveBuffer = 1024;                         ///< bytes
+    int baudRate = 57600;                       ///< bits per second
+    std::chrono::microseconds returnDelay{508}; ///< 508 µs until Return Delay Time has been read
+    std::uint8_t statusReturnLevel = 2;         ///< 0 Ping only, 1 Ping and Read, 2 all
+    bool fastReads = false;                     ///< Fast Sync Read and Fast Bulk Read, by model and firmware
+    int receiveBuffer = 1024;                   ///< bytes
 
     friend bool operator==(const Traits &, const Traits &) = default;
 };

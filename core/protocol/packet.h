@@ -38,9 +38,9 @@ Bytes encode(const StatusPacket &packet);
 /// Every block's parameters have the length that the request asked for, also beside an error.
 Bytes encodeFastStatus(std::span<const FastBlock> blocks);
 
-constexpr int HeaderSize = 7;            ///< FF FF FD 00, ID, LEN
-constexpr int InstructionOverhead = 10;  ///< a whole instruction packet without parameters
-constexpr int StatusOverhead = 11;       ///< a whole status packet without parameters
-constexpr int FastBlockOverhead = 4;     ///< ERR, ID, CRC around each block's data
+constexpr int HeaderSize = 7;           ///< FF FF FD 00, ID, LEN
+constexpr int InstructionOverhead = 10; ///< a whole instruction packet without parameters
+constexpr int StatusOverhead = 11;      ///< a whole status packet without parameters
+constexpr int FastBlockOverhead = 4;    ///< ERR, ID, CRC around each block's data
 
 } // namespace dynascope

@@ -48,7 +48,7 @@ public:
     };
 
     /// `maximumSize`: a header that announces more bytes in all than this is not taken for one.
-    explicit Parser(std::size_t maximumSize = MaximumPacketSize) : m_maximumSize(maximumSize) {}
+    explicit Parser(std::size_t maximumSize = MaximumPacketSize) : m_maximumSize(maximumSize) { }
 
     void setMaximumSize(std::size_t bytes) { m_maximumSize = bytes; }
     void feed(ByteView bytes);

@@ -46,7 +46,8 @@ QString deviceErrorReason(DeviceError error)
     switch (error) {
     case DeviceError::None: return QStringLiteral("nothing is wrong");
     case DeviceError::ResultFail: return QStringLiteral("it could not carry the instruction out in its present state");
-    case DeviceError::Instruction: return QStringLiteral("it does not know this instruction, or there was nothing to act on");
+    case DeviceError::Instruction:
+        return QStringLiteral("it does not know this instruction, or there was nothing to act on");
     case DeviceError::Crc: return QStringLiteral("the request reached it damaged");
     case DeviceError::DataRange: return QStringLiteral("the value is outside the register's range");
     case DeviceError::DataLength: return QStringLiteral("the data is shorter than the register");

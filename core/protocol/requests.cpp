@@ -7,7 +7,7 @@
 namespace dynascope {
 namespace {
 
-constexpr std::uint16_t PingReplyLength = 3;                    // model number, firmware version
+constexpr std::uint16_t PingReplyLength = 3; // model number, firmware version
 constexpr std::array<std::uint8_t, 4> ClearPositionKey{0x44, 0x58, 0x4C, 0x22};
 constexpr std::array<std::uint8_t, 4> ClearErrorKey{0x45, 0x52, 0x43, 0x4C};
 constexpr std::array<std::uint8_t, 4> BackupKey{0x43, 0x54, 0x52, 0x4C};
@@ -137,7 +137,7 @@ Request rebootRequest(std::uint8_t id)
 Request clearRequest(std::uint8_t id, ClearOption option)
 {
     return keyedRequest(id, Instruction::Clear, static_cast<std::uint8_t>(option),
-                        option == ClearOption::Position ? ClearPositionKey : ClearErrorKey);
+        option == ClearOption::Position ? ClearPositionKey : ClearErrorKey);
 }
 
 Request backupRequest(std::uint8_t id, BackupOption option)
@@ -302,7 +302,7 @@ tl::expected<Command, DeviceError> decodeCommand(const InstructionPacket &packet
         if (parameters.size() < 3)
             return tl::unexpected(DeviceError::DataLength);
         return WriteCommand{word(parameters, 0), Bytes(parameters.begin() + 2, parameters.end()),
-                            packet.instruction == Instruction::RegWrite};
+            packet.instruction == Instruction::RegWrite};
     case Instruction::Action: return ActionCommand{};
     case Instruction::FactoryReset: return decodeReset(parameters);
     case Instruction::Reboot: return RebootCommand{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One plot frame: new samples come, the view moves on, the panel is painted at 1200 × 700. The same data, antialiasing
 // off or on as each draws by default, into the same kind of image, beside QLineSeries and QCustomPlot.
+#undef QT_NO_FOREACH // which QCustomPlot's header needs
+
 #include "ui/common/theme.h"
 #include "ui/plot/plotchart.h"
 

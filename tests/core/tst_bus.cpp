@@ -1,88 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/bus/bus.h"
-#include "core/bus/messages.h"
-#include "tests/support/fakeline.h"
-#include "tests/support/hex.h"
-#include "tests/support/oracle.h"
+#include "tests/support/exchangetext.h"
 #include "tests/support/testmain.h"
 
-#include <QRegularExpression>
-
 using namespace dynascope;
+using namespace exchangetext;
 using namespace std::chrono_literals;
-
-namespace {
-
-const Bytes Position{0xA6, 0, 0, 0};
-
-Bytes position(std::uint8_t id)
-{
-    return oracle::status(id, 0, Position);
-}
-
-Bytes firstBytes(const Bytes &bytes, int count)
-{
-    return {bytes.begin(), bytes.begin() + count};
-}
-
-Bytes damaged(Bytes bytes)
-{
-    bytes[9] ^= 0x20;
-    return bytes;
-}
-
-Bytes join(std::initializer_list<Bytes> parts)
-{
-    Bytes all;
-    for (const Bytes &part : parts)
-        all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
-
-Request readPosition(std::uint8_t id = 3)
-{
-    return readRequest({id, 132, 4});
-}
-
-Request syncRead(const std::vector<std::uint8_t> &ids, bool fast = false)
-{
-    return syncReadRequest(132, 4, ids, fast);
-}
-
-QString toText(const Result<Reply> &reply)
-{
-    return reply ? QStringLiteral("%1: %2%3").arg(reply->id).arg(hex::text(reply->data), reply->alert ? QStringLiteral(" alert") : QString())
-                 : reply.error().text;
-}
-
-/// How long was waited in vain is for other tests to say.
-QString untimed(QString text)
-{
-    return text.replace(QRegularExpression(QStringLiteral("within [0-9.]+ m?s")), QStringLiteral("in time"));
-}
-
-QStringList toText(const Result<ExchangeResult> &result)
-{
-    if (!result)
-        return {result.error().text};
-    QStringList lines;
-    for (const Result<Reply> &reply : result->replies)
-        lines << untimed(toText(reply));
-    return lines;
-}
-
-FakeLine::Answer inOrder(std::initializer_list<Bytes> packets)
-{
-    FakeLine::Answer pieces;
-    LineTime at = 500us;
-    for (const Bytes &packet : packets) {
-        pieces.push_back({at, packet});
-        at += static_cast<LineTime::rep>(packet.size()) * 10us + 500us;
-    }
-    return pieces;
-}
-
-} // namespace
 
 class TestBus : public QObject
 {
@@ -103,23 +25,41 @@ private slots:
         row("noise first", join({{0, 0xFF, 7}, position(3)}), QStringLiteral("3: A6 00 00 00"));
         row("another ID first", join({position(4), position(3)}), QStringLiteral("3: A6 00 00 00"));
         row("a damaged one first", join({damaged(position(3)), position(3)}), QStringLiteral("3: A6 00 00 00"));
-        row("a late one of another length first", join({oracle::status(3, 0, {1}), position(3)}), QStringLiteral("3: A6 00 00 00"));
-        row("nothing", {}, QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
-        row("noise only", {1, 2, 3}, QStringLiteral("device 3 did not answer: 3 bytes came, but no packet began in them (noise, or "
-                                                    "somebody at another baud rate)"), bad(ErrorKind::NoHeader));
-        row("cut off", firstBytes(position(3), 7), QStringLiteral("the answer of device 3 was cut off after 7 of 15 bytes"), bad(ErrorKind::CutOff));
-        row("cut off before its length", firstBytes(position(3), 5), QStringLiteral("the answer of device 3 was cut off after 5 bytes"), bad(ErrorKind::CutOff));
-        row("damaged", damaged(position(3)), QStringLiteral("the answer of device 3 came damaged: its CRC is wrong"), bad(ErrorKind::DamagedCrc));
-        row("another ID only", position(5), QStringLiteral("device 3 did not answer, but device 5 did"), bad(ErrorKind::WrongId));
-        row("other IDs only", join({position(5), position(9)}), QStringLiteral("device 3 did not answer, but devices 5, 9 did"), bad(ErrorKind::WrongId));
-        row("shorter", oracle::status(3, 0, {1}), QStringLiteral("device 3 answered with 1 byte where 4 were asked for"), bad(ErrorKind::WrongLength));
-        row("longer", oracle::status(3, 0, {1, 2, 3, 4, 5}), QStringLiteral("device 3 answered with 5 bytes where 4 were asked for"), bad(ErrorKind::WrongLength));
-        row("refused", oracle::status(3, 7, {}), QStringLiteral("device 3 refused: Access Error, the register is read-only, locked "
-                                                                "while torque is on, or not in its table"), bad(ErrorKind::Refused));
-        row("refused with data", oracle::status(3, 0x84, Position), QStringLiteral("device 3 refused: Data Range Error, the value is outside the register's range"), bad(ErrorKind::Refused));
-        row("only the echo", encode(readPosition().packet), QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
-        row("a status with LEN 3", hex::bytes("FF FF FD 00 03 03 00 55 00 00"), QStringLiteral("device 3 did not answer: 10 bytes came, but no packet "
-                                                  "began in them (noise, or somebody at another baud rate)"), bad(ErrorKind::NoHeader));
+        row("a late one of another length first", join({oracle::status(3, 0, {1}), position(3)}),
+            QStringLiteral("3: A6 00 00 00"));
+        row("nothing", {}, QStringLiteral("device 3 did not answer: nothing was received in time"),
+            bad(ErrorKind::NothingReceived));
+        row("noise only", {1, 2, 3},
+            QStringLiteral("device 3 did not answer: 3 bytes came, but no packet began in them (noise, or "
+                           "somebody at another baud rate)"),
+            bad(ErrorKind::NoHeader));
+        row("cut off", firstBytes(position(3), 7),
+            QStringLiteral("the answer of device 3 was cut off after 7 of 15 bytes"), bad(ErrorKind::CutOff));
+        row("cut off before its length", firstBytes(position(3), 5),
+            QStringLiteral("the answer of device 3 was cut off after 5 bytes"), bad(ErrorKind::CutOff));
+        row("damaged", damaged(position(3)), QStringLiteral("the answer of device 3 came damaged: its CRC is wrong"),
+            bad(ErrorKind::DamagedCrc));
+        row("another ID only", position(5), QStringLiteral("device 3 did not answer, but device 5 did"),
+            bad(ErrorKind::WrongId));
+        row("other IDs only", join({position(5), position(9)}),
+            QStringLiteral("device 3 did not answer, but devices 5, 9 did"), bad(ErrorKind::WrongId));
+        row("shorter", oracle::status(3, 0, {1}),
+            QStringLiteral("device 3 answered with 1 byte where 4 were asked for"), bad(ErrorKind::WrongLength));
+        row("longer", oracle::status(3, 0, {1, 2, 3, 4, 5}),
+            QStringLiteral("device 3 answered with 5 bytes where 4 were asked for"), bad(ErrorKind::WrongLength));
+        row("refused", oracle::status(3, 7, {}),
+            QStringLiteral("device 3 refused: Access Error, the register is read-only, locked "
+                           "while torque is on, or not in its table"),
+            bad(ErrorKind::Refused));
+        row("refused with data", oracle::status(3, 0x84, Position),
+            QStringLiteral("device 3 refused: Data Range Error, the value is outside the register's range"),
+            bad(ErrorKind::Refused));
+        row("only the echo", encode(readPosition().packet),
+            QStringLiteral("device 3 did not answer: nothing was received in time"), bad(ErrorKind::NothingReceived));
+        row("a status with LEN 3", hex::bytes("FF FF FD 00 03 03 00 55 00 00"),
+            QStringLiteral("device 3 did not answer: 10 bytes came, but no packet "
+                           "began in them (noise, or somebody at another baud rate)"),
+            bad(ErrorKind::NoHeader));
     }
 
     void oneAnswer()
@@ -264,106 +204,6 @@ private slots:
         QCOMPARE(toText(bus.exchange(readPosition(), 0)), QStringList(QStringLiteral("3: A6 00 00 00")));
     }
 
-    void groupRead_data()
-    {
-        QTest::addColumn<QList<Bytes>>("packets");
-        QTest::addColumn<QStringList>("said");
-        QTest::addColumn<int>("broken");
-        const QString ok1 = QStringLiteral("1: A6 00 00 00"), ok2 = QStringLiteral("2: A6 00 00 00"), ok3 = QStringLiteral("3: A6 00 00 00");
-        QTest::newRow("all") << QList<Bytes>{position(1), position(2), position(3)} << QStringList{ok1, ok2, ok3} << -1;
-        QTest::newRow("last missing") << QList<Bytes>{position(1), position(2)}
-            << QStringList{ok1, ok2, QStringLiteral("device 3 did not answer: nothing was received in time")} << 2;
-        QTest::newRow("second missing") << QList<Bytes>{position(1)}
-            << QStringList{ok1, QStringLiteral("device 2 did not answer: nothing was received in time"),
-                           QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")} << 1;
-        QTest::newRow("first missing") << QList<Bytes>{}
-            << QStringList{QStringLiteral("device 1 did not answer: nothing was received in time"),
-                           QStringLiteral("device 2 was not heard: device 1, asked before it, did not finish its answer"),
-                           QStringLiteral("device 3 was not heard: device 1, asked before it, did not finish its answer")} << 0;
-        QTest::newRow("second damaged") << QList<Bytes>{position(1), damaged(position(2)), position(3)}
-            << QStringList{ok1, QStringLiteral("the answer of device 2 came damaged: its CRC is wrong"), ok3} << -1;
-        QTest::newRow("second cut off") << QList<Bytes>{position(1), firstBytes(position(2), 9)}
-            << QStringList{ok1, QStringLiteral("the answer of device 2 was cut off after 9 of 15 bytes"),
-                           QStringLiteral("device 3 was not heard: device 2, asked before it, did not finish its answer")} << 1;
-        QTest::newRow("second of another length") << QList<Bytes>{position(1), oracle::status(2, 0, {1, 2}), position(3)}
-            << QStringList{ok1, QStringLiteral("device 2 answered with 2 bytes where 4 were asked for"), ok3} << -1;
-        QTest::newRow("second refuses") << QList<Bytes>{position(1), oracle::status(2, 7, {}), position(3)}
-            << QStringList{ok1, QStringLiteral("device 2 refused: Access Error, the register is read-only, locked while torque is on, or not in its table"), ok3} << -1;
-        QTest::newRow("second silent, third bold") << QList<Bytes>{position(1), position(3)}
-            << QStringList{ok1, QStringLiteral("device 2 did not answer: nothing was received in time"), ok3} << -1;
-    }
-
-    void groupRead()
-    {
-        QFETCH(QList<Bytes>, packets);
-        QFETCH(QStringList, said);
-        QFETCH(int, broken);
-        FakeLine line;
-        FakeLine::Answer pieces;
-        LineTime at = 500us;
-        for (const Bytes &packet : packets) {
-            pieces.push_back({at, packet});
-            at += static_cast<LineTime::rep>(packet.size()) * 10us + 500us;
-        }
-        line.answer(pieces);
-        Bus bus(line);
-        const auto result = bus.exchange(syncRead({1, 2, 3}), 0);
-        QCOMPARE(toText(result), said);
-        QCOMPARE(result->brokenAt, broken);
-    }
-
-    void theSilentOneGoesLastWhenAskedAgain()
-    {
-        FakeLine line;
-        line.answer(inOrder({position(1)}));
-        line.answer(oracle::status(3, 0, {6, 4, 38})); // fence, by the first that is asked now
-        line.answer(inOrder({position(3)}));
-        Bus bus(line);
-        const auto result = bus.exchange(syncRead({1, 2, 3}), 1);
-        QCOMPARE(toText(result)[0], QStringLiteral("1: A6 00 00 00"));
-        QCOMPARE(toText(result)[2], QStringLiteral("3: A6 00 00 00"));
-        QVERIFY(!result->replies[1]);
-        QCOMPARE(hex::text(line.sent.back().bytes), hex::text(encode(syncRead({3, 2}).packet)));
-    }
-
-    void fastReplyIsSalvaged_data()
-    {
-        QTest::addColumn<int>("keep");
-        QTest::addColumn<int>("flip");
-        QTest::addColumn<int>("good");
-        QTest::newRow("whole") << 32 << -1 << 3;
-        QTest::newRow("nothing") << 0 << -1 << 0;
-        QTest::newRow("header only") << 8 << -1 << 0;
-        QTest::newRow("cut in the second") << 20 << -1 << 1;
-        QTest::newRow("cut before the last byte") << 31 << -1 << 2;
-        QTest::newRow("damaged in the first") << 32 << 11 << 0;
-        QTest::newRow("damaged in the third") << 32 << 27 << 2;
-        QTest::newRow("damaged length") << 32 << 5 << 0;
-    }
-
-    void fastReplyIsSalvaged()
-    {
-        QFETCH(int, keep);
-        QFETCH(int, flip);
-        QFETCH(int, good);
-        Bytes wire = hex::bytes("FF FF FD 00 FE 19 00 55 00 03 A6 00 00 00 84 08 00 07 1F 08 00 00 16 CA 00 04 FF 03 00 00 D1 9E");
-        if (flip >= 0)
-            wire[static_cast<std::size_t>(flip)] ^= 0x02;
-        FakeLine line;
-        line.answer(firstBytes(wire, keep));
-        Bus bus(line);
-        const auto result = bus.exchange(syncRead({3, 7, 4}, true), 0);
-        QCOMPARE(result->replies.size(), std::size_t(3));
-        const std::array<Bytes, 3> values{Bytes{0xA6, 0, 0, 0}, Bytes{0x1F, 8, 0, 0}, Bytes{0xFF, 3, 0, 0}};
-        for (int i = 0; i < 3; ++i) {
-            const auto &reply = result->replies[static_cast<std::size_t>(i)];
-            QCOMPARE(reply.has_value(), i < good);
-            if (reply)
-                QCOMPARE(reply->data, values[static_cast<std::size_t>(i)]);
-        }
-        QCOMPARE(result->brokenAt, good == 3 ? -1 : good);
-    }
-
     void silenceByStatusReturnLevel()
     {
         Traits traits;
@@ -380,48 +220,10 @@ private slots:
         traits.statusReturnLevel = 0;
         bus.setTraits({traits});
         QCOMPARE(toText(bus.exchange(readPosition(), 0)), // a fence, answered; then silence
-                 QStringList(QStringLiteral("device 3 did not answer: nothing was received in time")));
+            QStringList(QStringLiteral("device 3 did not answer: nothing was received in time")));
         line.answer(oracle::status(3, 0, {6, 4, 38})).silence();
         QCOMPARE(toText(bus.exchange(readPosition(), 0)),
-                 QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
-    }
-
-    void broadcastPingFindsAll()
-    {
-        FakeLine line;
-        line.answer(FakeLine::Answer{{0ms, oracle::status(0, 0, {6, 4, 38})},
-                                     {21ms, oracle::status(7, 0x80, {0xFC, 3, 45})},
-                                     {740ms, oracle::status(250, 0, {6, 4, 38})}});
-        Bus bus(line);
-        std::vector<std::pair<int, LineTime>> found;
-        const auto result = bus.broadcastPing(252, [&](const Reply &reply) { found.emplace_back(reply.id, line.now()); });
-        QVERIFY(result);
-        QCOMPARE(result->replies.size(), std::size_t(3));
-        QCOMPARE(found.size(), std::size_t(3));
-        QVERIFY(found[0].second < 2ms); // as they come
-        QVERIFY(line.now() >= 753ms && line.now() < 800ms);
-        QVERIFY(result->replies[1]->alert);
-    }
-
-    void broadcastPingWaitsOnlyForTheIdsWanted()
-    {
-        FakeLine line;
-        Bus bus(line);
-        QVERIFY(bus.broadcastPing(9, {}));
-        QVERIFY(line.now() >= 30ms && line.now() < 32ms);
-    }
-
-    void broadcastPingIsCancelledWithinASlot()
-    {
-        FakeLine line;
-        std::atomic<bool> cancel = false;
-        line.answer(oracle::status(1, 0, {6, 4, 38}), 3ms);
-        Bus bus(line);
-        bus.setCancel(&cancel);
-        const auto result = bus.broadcastPing(252, [&](const Reply &) { cancel = true; });
-        QVERIFY(!result);
-        QCOMPARE(result.error().kind, ErrorKind::Cancelled);
-        QVERIFY(line.now() < 7ms);
+            QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
     }
 
     void stopEndsAnExchangeAtOnce()
@@ -496,11 +298,13 @@ private slots:
         Bus bus(line);
         QStringList seen;
         bus.setTap([&](Bus::Direction direction, LineTime, ByteView bytes) {
-            seen << (direction == Bus::Direction::Sent ? QStringLiteral("> ") : QStringLiteral("< ")) + hex::text(bytes);
+            seen << (direction == Bus::Direction::Sent ? QStringLiteral("> ") : QStringLiteral("< "))
+                    + hex::text(bytes);
         });
         QVERIFY(bus.exchange(readPosition()));
-        QCOMPARE(seen, (QStringList{QStringLiteral("> FF FF FD 00 03 07 00 02 84 00 04 00 ") + seen[0].right(5),
-                                    QStringLiteral("< ") + hex::text(position(4)), QStringLiteral("< ") + hex::text(position(3))}));
+        QCOMPARE(seen,
+            (QStringList{QStringLiteral("> FF FF FD 00 03 07 00 02 84 00 04 00 ") + seen[0].right(5),
+                QStringLiteral("< ") + hex::text(position(4)), QStringLiteral("< ") + hex::text(position(3))}));
         const BusStatistics statistics = bus.statistics();
         QCOMPARE(statistics.exchanges, quint64(1));
         QCOMPARE(statistics.replies, quint64(1));

@@ -37,7 +37,8 @@ private slots:
 
     void scansAllAtOneRate()
     {
-        VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:7,XL330-M288@57600:252,XL330-M288@1000000:3"));
+        VirtualBus world(catalog(),
+            QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:7,XL330-M288@57600:252,XL330-M288@1000000:3"));
         std::vector<int> shown;
         const LineTime begin = world.line->now();
         const auto found = scanBaud(*world.bus, 0, 252, [&](const Found &device) { shown.push_back(device.id); });
@@ -137,7 +138,8 @@ private slots:
         QVERIFY(!ping(*world.bus, 2));
         world.line->setEcho(false);
         VirtualBus quiet(catalog(), QStringLiteral("XM430-W350@57600:1"));
-        QVERIFY(write(*quiet.bus, {1, 68, {1}}, 0).has_value() || true); // whether this one is still answered is not documented
+        QVERIFY(write(*quiet.bus, {1, 68, {1}}, 0).has_value()
+            || true); // whether this one is still answered is not documented
         Traits device = traits(1, false);
         device.statusReturnLevel = 1;
         quiet.bus->setTraits({device});
@@ -147,7 +149,8 @@ private slots:
 
     void pollsAtTheSpeedOfTheWire()
     {
-        VirtualBus world(catalog(), QStringLiteral("XM430-W350@1000000:1,XM430-W350@1000000:2,XM430-W350@1000000:3"), 1'000'000);
+        VirtualBus world(
+            catalog(), QStringLiteral("XM430-W350@1000000:1,XM430-W350@1000000:2,XM430-W350@1000000:3"), 1'000'000);
         for (const std::uint8_t id : {1, 2, 3})
             QVERIFY(write(*world.bus, {id, 9, {0}})); // Return Delay Time
         Poller poller(*world.bus);

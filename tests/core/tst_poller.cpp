@@ -28,7 +28,9 @@ QString toText(const Result<Batch> &batch)
         return batch.error().text;
     QStringList parts;
     for (const PollValue &value : batch->values)
-        parts << QStringLiteral("%1%2").arg(value.device).arg(value.data.empty() ? QStringLiteral(":silent") : QStringLiteral("=%1").arg(value.data[0]));
+        parts << QStringLiteral("%1%2")
+                     .arg(value.device)
+                     .arg(value.data.empty() ? QStringLiteral(":silent") : QStringLiteral("=%1").arg(value.data[0]));
     return parts.join(QLatin1Char(' '));
 }
 
@@ -40,10 +42,7 @@ class TestPoller : public QObject
 
     /// A bus with servos 1, 2, 3 that hold their ID at 132.
     struct World {
-        World()
-            : servos(line)
-            , bus(line)
-            , poller(bus)
+        World() : servos(line), bus(line), poller(bus)
         {
             for (const int id : {1, 2, 3})
                 servos.servos[id].registers[132] = static_cast<std::uint8_t>(id);

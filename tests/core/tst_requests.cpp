@@ -39,7 +39,7 @@ private slots:
         QVERIFY(!write.registered);
         QVERIFY(decoded<WriteCommand>(regWriteRequest({1, 64, {1}})).registered);
         QCOMPARE(decoded<FactoryResetCommand>(factoryResetRequest(1, ResetOption::AllButIdAndBaud)).option,
-                 ResetOption::AllButIdAndBaud);
+            ResetOption::AllButIdAndBaud);
         QCOMPARE(decoded<ClearCommand>(clearRequest(1, ClearOption::Error)).option, ClearOption::Error);
         QCOMPARE(decoded<BackupCommand>(backupRequest(1, BackupOption::Restore)).option, BackupOption::Restore);
         QVERIFY(std::holds_alternative<RebootCommand>(*decodeCommand(rebootRequest(1).packet)));

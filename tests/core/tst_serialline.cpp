@@ -122,7 +122,8 @@ private slots:
     void saysWhyItCanNotOpen()
     {
         QCOMPARE(errorOf(QStringLiteral("/dev/nosuchport")).kind, ErrorKind::PortNotFound);
-        QVERIFY(errorOf(QStringLiteral("/dev/nosuchport")).text.startsWith(QStringLiteral("there is no port /dev/nosuchport")));
+        QVERIFY(errorOf(QStringLiteral("/dev/nosuchport"))
+                    .text.startsWith(QStringLiteral("there is no port /dev/nosuchport")));
         QCOMPARE(errorOf(QStringLiteral("/dev/null")).kind, ErrorKind::PortUnsuitable);
         const QTemporaryDir directory;
         QCOMPARE(errorOf(directory.path()).kind, ErrorKind::PortUnsuitable);

@@ -30,7 +30,7 @@ public:
         Bytes bytes;
     };
 
-    explicit FakeLine(int baudRate = 1'000'000) : m_baudRate(baudRate) {}
+    explicit FakeLine(int baudRate = 1'000'000) : m_baudRate(baudRate) { }
 
     QString name() const override { return QStringLiteral("fake"); }
     LineTime now() const override { return m_now; }

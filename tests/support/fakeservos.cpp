@@ -29,13 +29,16 @@ FakeLine::Answer FakeServos::answer(const Bytes &request)
     const int id = request[4];
     const int code = request[7];
     const Bytes parameters(request.begin() + ParametersAt, request.end() - 2);
-    const auto reply = [&](std::uint8_t from, const Bytes &data) { return FakeLine::Answer{{FakeLine::DefaultDelay, oracle::status(from, 0, data)}}; };
+    const auto reply = [&](std::uint8_t from, const Bytes &data) {
+        return FakeLine::Answer{{FakeLine::DefaultDelay, oracle::status(from, 0, data)}};
+    };
     const auto word = [&](std::size_t at) { return parameters[at] + 256 * parameters[at + 1]; };
     if (code == 1 && id == 254) {
         FakeLine::Answer all;
         for (const auto &[each, servo] : servos) {
             if (heard(each) && !servo.silent)
-                all.push_back({std::chrono::milliseconds(3 * each), oracle::status(static_cast<std::uint8_t>(each), 0, {1, 4, 45})});
+                all.push_back({std::chrono::milliseconds(3 * each),
+                    oracle::status(static_cast<std::uint8_t>(each), 0, {1, 4, 45})});
         }
         return all;
     }
@@ -68,7 +71,8 @@ FakeLine::Answer FakeServos::chain(const std::vector<int> &ids, int address, int
     FakeLine::Answer answers;
     LineTime at = FakeLine::DefaultDelay;
     const std::size_t total = 1 + ids.size() * (static_cast<std::size_t>(length) + 4);
-    Bytes joined{0xFF, 0xFF, 0xFD, 0x00, 0xFE, static_cast<std::uint8_t>(total), static_cast<std::uint8_t>(total >> 8), 0x55};
+    Bytes joined{
+        0xFF, 0xFF, 0xFD, 0x00, 0xFE, static_cast<std::uint8_t>(total), static_cast<std::uint8_t>(total >> 8), 0x55};
     bool any = false;
     for (const int id : ids) {
         const Servo *servo = heard(id);

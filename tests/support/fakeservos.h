@@ -11,8 +11,8 @@ public:
     struct Servo {
         int baudRate = 1'000'000;
         dynascope::Bytes registers = dynascope::Bytes(256, 0);
-        bool silent = false;   ///< hears, obeys, doesn't answer
-        bool deaf = false;     ///< neither
+        bool silent = false; ///< hears, obeys, doesn't answer
+        bool deaf = false;   ///< neither
         bool knowsFast = true;
     };
 

@@ -17,8 +17,7 @@
 
 using namespace dynascope;
 
-PtyMaster::PtyMaster()
-    : m_master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC))
+PtyMaster::PtyMaster() : m_master(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC))
 {
     if (m_master < 0 || ::grantpt(m_master) != 0 || ::unlockpt(m_master) != 0)
         qFatal("no pseudo-terminal");

@@ -294,7 +294,7 @@ private slots:
         bench.area.addTrace(bench.watch(bench.first, "Present Current"));
         TraceList &list = bench.list();
         list.setCurrentIndex(bench.model().index(1));
-        QContextMenuEvent event(QContextMenuEvent::Keyboard, {});
+        QContextMenuEvent event(QContextMenuEvent::Keyboard, QPoint(), QPoint());
         QCoreApplication::sendEvent(list.viewport(), &event);
         auto *menu = list.findChild<QMenu *>();
         QVERIFY(menu);

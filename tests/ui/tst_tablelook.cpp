@@ -6,12 +6,14 @@
 #include "ui/table/tableview.h"
 
 #include <QDir>
+#include <QLabel>
 #include <QLineEdit>
 #include <QToolButton>
 
 using namespace dynascope;
 
-/// The panel as a picture, into the folder DYNASCOPE_PICTURES if that is set. What can be checked without eyes is checked.
+/// The panel as a picture, into the folder DYNASCOPE_PICTURES if that is set. What can be checked without eyes is
+/// checked.
 class TestTableLook : public QObject
 {
     Q_OBJECT
@@ -78,6 +80,8 @@ private slots:
 
         Device *unknown = fixture.add(9, 4711);
         panel.setDevices({unknown});
+        const auto *text = panel.findChild<QLabel *>(QStringLiteral("tableEmptyText"));
+        QVERIFY(text->height() >= text->heightForWidth(text->width())); // nothing cut off
         save(panel, QStringLiteral("table-unknown"), wanted);
     }
 

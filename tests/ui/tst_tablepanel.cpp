@@ -98,7 +98,8 @@ private slots:
         row("bare volt", QStringLiteral("Max Voltage Limit"), QStringLiteral("12.1"), true, QStringLiteral("121"));
         row("a foreign unit", QStringLiteral("Max Voltage Limit"), QStringLiteral("12mA"), false,
             QStringLiteral("does not fit"));
-        row("no unit to take", QStringLiteral("Position P Gain"), QStringLiteral("12V"), true, QStringLiteral("no unit"));
+        row("no unit to take", QStringLiteral("Position P Gain"), QStringLiteral("12V"), true,
+            QStringLiteral("no unit"));
         row("name of a value", QStringLiteral("Bus Watchdog"), QStringLiteral("off"), true, QStringLiteral("0"));
     }
 

@@ -2,6 +2,7 @@
 #include "ui/common/flatstyle.h"
 
 #include "ui/common/flatcontrols.h"
+#include "ui/common/icons.h"
 #include "ui/common/theme.h"
 
 #include <QFrame>
@@ -13,6 +14,8 @@ namespace dynascope {
 namespace {
 
 constexpr int IconGap = 7;
+constexpr int ButtonPadding = 24; ///< left and right of a button's text, together
+constexpr int ButtonHeight = 28;
 
 /// Buttons show the focus only where the keyboard brought it.
 QColor plainBorder(const QStyleOption *option)
@@ -126,7 +129,11 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
         painter->restore();
         return;
     }
+    case PE_IndicatorCheckBox:
+    case PE_IndicatorItemViewItemCheck: drawCheckBox(*option, painter); return;
+    case PE_IndicatorRadioButton: drawRadioButton(*option, painter); return;
     case PE_FrameStatusBarItem: return;
+    case PE_PanelScrollAreaCorner: painter->fillRect(option->rect, option->palette.color(QPalette::Base)); return;
     case PE_IndicatorToolBarSeparator: {
         const QRect &rect = option->rect;
         const ThemeColors &theme = colors(option->palette);
@@ -205,9 +212,23 @@ QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption *option,
 {
     QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
-    if (type == CT_PushButton && button && !button->icon.isNull() && !button->text.isEmpty())
-        result.rwidth() += IconGap + 2;
+    if (type != CT_PushButton || !button || button->text.isEmpty())
+        return result;
+    const int gap = button->icon.isNull() ? 0 : IconGap + 2;
+    result = result.expandedTo(QSize(size.width() + gap + ButtonPadding, ButtonHeight));
     return result;
+}
+
+QIcon FlatStyle::standardIcon(StandardPixmap standard, const QStyleOption *option, const QWidget *widget) const
+{
+    switch (standard) {
+    case SP_MessageBoxQuestion: return icon(QStringLiteral("help"), IconTint::Accent);
+    case SP_MessageBoxInformation: return icon(QStringLiteral("info"), IconTint::Accent);
+    case SP_MessageBoxWarning: return icon(QStringLiteral("warning"), IconTint::Warning);
+    case SP_MessageBoxCritical: return icon(QStringLiteral("error"), IconTint::Bad);
+    case SP_LineEditClearButton: return icon(QStringLiteral("close"), IconTint::Dimmed);
+    default: return QProxyStyle::standardIcon(standard, option, widget);
+    }
 }
 
 int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const QWidget *widget) const

@@ -48,6 +48,7 @@ ScanOptions::ScanOptions(QWidget *parent)
     for (const int baud : allBauds()) {
         auto *item = new QListWidgetItem(baudText(baud), m_bauds);
         item->setData(BaudRole, baud);
+        item->setSizeHint(QSize(0, fontMetrics().height() + 8));
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable | Qt::ItemIsSelectable);
     }
     setBauds(likelyBauds(0));
@@ -101,7 +102,7 @@ void ScanOptions::popup(const QPoint &position)
     adjustSize();
     move(position);
     show();
-    m_bauds->setFocus();
+    m_scan->setFocus();
 }
 
 std::vector<int> ScanOptions::checkedBauds() const

@@ -25,7 +25,7 @@ ChangeBaudDialog::ChangeBaudDialog(Device &device, Commands &commands, QWidget *
             m_baud->addItem(baudText(code.rate), code.rate);
     }
     const int working = device.line() ? m_baud->findData(device.line()->baudRate()) : -1;
-    m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(1'000'000)));
+    m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(57600)));
     form()->addRow(tr("Present baud rate"), new QLabel(baudText(device.baudRate()), this));
     form()->addRow(tr("New baud rate"), m_baud);
     connect(m_baud, &QComboBox::currentIndexChanged, this, [this] { check(); });

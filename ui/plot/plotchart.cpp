@@ -193,8 +193,9 @@ void PlotChart::mouseDoubleClickEvent(QMouseEvent *)
     emit fitRequested();
 }
 
-void PlotChart::zoomValues(double factor, qreal y)
+void PlotChart::zoomValues(int steps, qreal y)
 {
+    const double factor = std::pow(WheelZoom, -steps);
     const QRectF area = plotArea();
     if (m_autoscale) {
         m_autoscale = false;
@@ -207,15 +208,15 @@ void PlotChart::zoomValues(double factor, qreal y)
     update();
 }
 
-void PlotChart::zoomTime(double factor, qreal x)
+void PlotChart::zoomTime(int steps, qreal x)
 {
     if (m_window.isLive()) {
-        emit spanStepped(factor > 1 ? 1 : -1);
+        emit spanStepped(-steps);
         return;
     }
     const TimeView now = view();
     const QRectF area = plotArea();
-    emit zoomed(factor, now.timeAt((x - area.left()) / area.width() * now.columns));
+    emit zoomed(std::pow(WheelZoom, -steps), now.timeAt((x - area.left()) / area.width() * now.columns));
 }
 
 void PlotChart::wheelEvent(QWheelEvent *event)
@@ -226,11 +227,10 @@ void PlotChart::wheelEvent(QWheelEvent *event)
     m_wheelRest -= steps * WheelStep;
     if (steps == 0)
         return;
-    const double factor = std::pow(WheelZoom, -steps);
     if (event->modifiers().testFlag(Qt::ControlModifier))
-        zoomValues(factor, event->position().y());
+        zoomValues(steps, event->position().y());
     else
-        zoomTime(factor, event->position().x());
+        zoomTime(steps, event->position().x());
 }
 
 void PlotChart::keyPressEvent(QKeyEvent *event)
@@ -243,10 +243,10 @@ void PlotChart::keyPressEvent(QKeyEvent *event)
     case Qt::Key_Right: emit panned(tenth); return;
     case Qt::Key_Plus:
     case Qt::Key_Equal:
-        values ? zoomValues(1 / WheelZoom, centre.y()) : zoomTime(1 / WheelZoom, centre.x());
+        values ? zoomValues(1, centre.y()) : zoomTime(1, centre.x());
         return;
     case Qt::Key_Minus:
-        values ? zoomValues(WheelZoom, centre.y()) : zoomTime(WheelZoom, centre.x());
+        values ? zoomValues(-1, centre.y()) : zoomTime(-1, centre.x());
         return;
     case Qt::Key_Home: emit fitRequested(); return;
     default: QWidget::keyPressEvent(event);

@@ -60,8 +60,8 @@ protected:
 private:
     ChartFrame::Content frameContent(const TimeView &view) const;
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
-    void zoomValues(double factor, qreal y);
-    void zoomTime(double factor, qreal x);
+    void zoomValues(int steps, qreal y);
+    void zoomTime(int steps, qreal x); ///< positive: closer
 
     const TimeWindow &m_window;
     std::vector<TraceData> m_traces;

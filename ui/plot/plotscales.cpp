@@ -46,7 +46,7 @@ void PlotScales::fit(std::span<const TraceData> traces, const TimeView &view, Li
             std::int32_t least = 0;
             std::int32_t most = 0;
             if (trace.unit != scale.unit || !trace.isDrawn()
-                || !trace.history->range(view.from(), view.to(), least, most))
+                || !trace.history->range(view.from(), std::min(view.to(), view.until), least, most))
                 continue;
             const double one = trace.value(least);
             const double other = trace.value(most);

@@ -25,7 +25,7 @@ void TimeWindow::pause(LineTime newest)
 void TimeWindow::pan(LineTime by)
 {
     if (!m_live)
-        m_end += by;
+        m_end = std::min(m_end + by, m_zero);
 }
 
 void TimeWindow::zoom(double factor, LineTime around)
@@ -35,7 +35,7 @@ void TimeWindow::zoom(double factor, LineTime around)
     const auto wanted = LineTime(static_cast<std::int64_t>(static_cast<double>(m_pausedSpan.count()) * factor));
     const LineTime span = std::clamp(wanted, ShortestZoom, LongestSpan);
     const double actual = static_cast<double>(span.count()) / static_cast<double>(m_pausedSpan.count());
-    m_end = around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual));
+    m_end = std::min(around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual)), m_zero);
     m_pausedSpan = span;
 }
 
@@ -49,6 +49,8 @@ TimeView TimeWindow::view(int columns, LineTime newest) const
     view.columns = count;
     view.firstColumn = end / view.step - count + 1; // the column that holds `end` is the last
     view.zero = m_live ? view.to() : m_zero;
+    if (!m_live)
+        view.until = m_zero;
     return view;
 }
 

@@ -32,9 +32,11 @@ struct TimeView {
     std::int64_t firstColumn = 0;
     int columns = 0;
     LineTime zero{};               ///< what the time axis calls 0 s
+    LineTime until = LineTime::max(); ///< paused: what came later isn't shown
 
     LineTime from() const { return step * firstColumn; }
     LineTime to() const { return step * (firstColumn + columns); }
+    LineTime shownTo() const { return until < to() ? until + LineTime(1) : to(); } ///< exclusive
     double column(LineTime at) const
     {
         return static_cast<double>((at - from()).count()) / static_cast<double>(step.count());

@@ -54,7 +54,7 @@ void TraceImage::paintItem(const Item &item, ColumnCache &cache, const TimeView 
     m_raster.setColor(colorOf(*item.trace));
     const History &history = *item.trace->history;
     const std::size_t first = history.indexAt(view.from());
-    const std::size_t last = history.indexAt(view.to());
+    const std::size_t last = history.indexAt(view.shownTo());
     if (last - first <= static_cast<std::size_t>(view.columns) * LineDensity)
         paintLines(item, view, first, last);
     else
@@ -117,7 +117,7 @@ void TraceImage::paintLines(const Item &item, const TimeView &view, std::size_t 
         path.samples += isSample ? 1 : 0;
     };
     const std::size_t begin = first > 0 ? first - 1 : first;
-    const std::size_t end = std::min(last + 1, history.size());
+    const std::size_t end = last < history.size() && history.at(last).at <= view.until ? last + 1 : last;
     double fromX = 0;
     float fromY = 0;
     for (std::size_t i = begin; i < end; ++i) {

@@ -206,8 +206,9 @@ bool TraceModel::setData(const QModelIndex &index, const QVariant &value, int ro
 
 Qt::ItemFlags TraceModel::flags(const QModelIndex &index) const
 {
-    const Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemNeverHasChildren;
-    return index.isValid() ? flags | Qt::ItemIsUserCheckable : flags;
+    if (!index.isValid())
+        return {};
+    return Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable | Qt::ItemNeverHasChildren;
 }
 
 } // namespace dynascope

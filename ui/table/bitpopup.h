@@ -7,8 +7,8 @@
 
 namespace dynascope {
 
-/// A check list of a register's bits; groups of bits are lists. Bits without a name stay as they are. A pop-up: Enter or Write
-/// takes it, Esc or a click beside it leaves everything as it was. Deletes itself.
+/// A check list of a register's bits; groups of bits are lists. Bits without a name stay as they are. A pop-up: Enter
+/// or Write takes it, Esc or a click beside it leaves everything as it was. Deletes itself.
 class BitPopup : public QFrame
 {
     Q_OBJECT

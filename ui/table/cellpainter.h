@@ -14,8 +14,8 @@ inline constexpr int CellMargin = 8; ///< left and right of what a cell says
 /// How wide the lane is in which units stand, so that the numbers left of it line up whatever their unit.
 int unitLaneWidth(const QFont &font);
 
-/// The text of one value: number right, unit dimmed, what is being written, a mark where the last try failed or where this
-/// device differs from the others. Knows roles only.
+/// The text of one value: number right, unit dimmed, what is being written, a mark where the last try failed or where
+/// this device differs from the others. Knows roles only.
 void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index);
 
 /// Background, selection and focus of a cell, without its content.

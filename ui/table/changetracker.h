@@ -10,8 +10,8 @@
 
 namespace dynascope {
 
-/// When each value of the grid last changed: what fades, and which write has been waiting for long enough to be shown. GUI
-/// thread. Its timer runs only while something fades or waits.
+/// When each value of the grid last changed: what fades, and which write has been waiting for long enough to be shown.
+/// GUI thread. Its timer runs only while something fades or waits.
 class ChangeTracker : public QObject
 {
     Q_OBJECT
@@ -22,13 +22,13 @@ public:
     static constexpr qint64 StillMs = 3000;   ///< a value that changes after standing still this long is marked
     static constexpr qint64 FadeMs = 1000;    ///< for this long
     static constexpr qint64 ResultMs = 500;   ///< what changes within this time after a write is its result
-    static constexpr qint64 PendingMs = 150;  ///< quicker writes show only their result, so that a slider doesn't flicker
+    static constexpr qint64 PendingMs = 150;  ///< quicker writes show only their result: a slider must not flicker
 
     explicit ChangeTracker(Clock clock, QObject *parent = nullptr);
 
     void reset(int devices, int fields);
-    /// Takes note of a value as it is now; true where it isn't what it was. `mark` false: without marking what changed (nobody
-    /// saw it change).
+    /// Takes note of a value as it is now; true where it isn't what it was. `mark` false: without marking what changed
+    /// (nobody saw it change).
     bool observe(int device, int field, const FieldValue &value, bool mark);
 
     double fade(int device, int field) const; ///< 1 just changed … 0

@@ -13,8 +13,8 @@ class FieldTableModel;
 class LockBar;
 class TableView;
 
-/// What happens between "I want to change this" and an open editor: procedures for ID and baud rate, the check list for bits,
-/// the lock bar where the servo would refuse.
+/// What happens between "I want to change this" and an open editor: procedures for ID and baud rate, the check list for
+/// bits, the lock bar where the servo would refuse.
 class EditFlow : public QObject
 {
     Q_OBJECT

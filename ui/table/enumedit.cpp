@@ -10,7 +10,8 @@
 
 namespace dynascope {
 
-EnumEdit::EnumEdit(const Field &field, const EffectiveField &effective, std::optional<std::int64_t> raw, QWidget *parent)
+EnumEdit::EnumEdit(const Field &field, const EffectiveField &effective, std::optional<std::int64_t> raw,
+                   QWidget *parent)
     : QComboBox(parent)
 {
     setObjectName(QStringLiteral("enumEdit"));

@@ -7,7 +7,8 @@
 
 namespace dynascope {
 
-/// The list of an enumerated register's values that may be written. Open at once; picking one or dismissing the list ends it.
+/// The list of an enumerated register's values that may be written. Open at once; picking one or dismissing the list
+/// ends it.
 class EnumEdit : public QComboBox
 {
     Q_OBJECT

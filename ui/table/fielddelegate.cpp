@@ -94,8 +94,8 @@ QWidget *FieldDelegate::createEditor(QWidget *parent, const QStyleOptionViewItem
 
 void FieldDelegate::setEditorData(QWidget * /*editor*/, const QModelIndex & /*index*/) const
 {
-    // The editor got its value when it was made. The view calls this at every change of the cell, which would take the text
-    // away from under the person's hands.
+    // The editor got its value when it was made. The view calls this at every change of the cell, which would take the
+    // text away from under the person's hands.
 }
 
 void FieldDelegate::setModelData(QWidget *editor, QAbstractItemModel *model, const QModelIndex &index) const

@@ -7,8 +7,9 @@
 
 namespace dynascope {
 
-/// Paints the cells of the grid and makes the editor that fits a register: a list for enums, else a line for numbers. Bits have
-/// a pop-up of their own, see BitPopup. Knows roles and no model. An editor that was not touched writes nothing.
+/// Paints the cells of the grid and makes the editor that fits a register: a list for enums, else a line for numbers.
+/// Bits have a pop-up of their own, see BitPopup. Knows roles and no model. An editor that was not touched writes
+/// nothing.
 class FieldDelegate : public QStyledItemDelegate
 {
     Q_OBJECT

@@ -5,8 +5,8 @@
 
 namespace dynascope {
 
-/// Leaves the registers that match every word of the search and every filter that is on; groups stay with what is left of
-/// them.
+/// Leaves the registers that match every word of the search and every filter that is on; groups stay with what is left
+/// of them.
 class FieldFilterModel : public QSortFilterProxyModel
 {
     Q_OBJECT

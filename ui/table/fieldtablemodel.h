@@ -11,10 +11,12 @@
 
 namespace dynascope {
 
-/// The control tables of devices of one model: groups, and in them one row per register. Raw values only; FieldWordsModel says
-/// them in words. One device: a column for its raw value and one for what it means; several: one column each. GUI thread.
+/// The control tables of devices of one model: groups, and in them one row per register. Raw values only;
+/// FieldWordsModel says them in words. One device: a column for its raw value and one for what it means; several: one
+/// column each. GUI thread.
 ///
-/// What devices report is collected and told once a frame, as a few ranges; while not live not at all, until setLive(true).
+/// What devices report is collected and told once a frame, as a few ranges; while not live not at all, until
+/// setLive(true).
 class FieldTableModel : public QAbstractItemModel
 {
     Q_OBJECT
@@ -52,8 +54,8 @@ public:
     QVariant data(const QModelIndex &index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override; ///< KindRole
     Qt::ItemFlags flags(const QModelIndex &index) const override;
-    /// EditRole: a raw value, which is written, not shown: the servo's answer is. Nothing is sent to a device that has it
-    /// already. CheckStateRole in the plot's column: plotRequested() or unplotRequested().
+    /// EditRole: a raw value, which is written, not shown: the servo's answer is. Nothing is sent to a device that has
+    /// it already. CheckStateRole in the plot's column: plotRequested() or unplotRequested().
     bool setData(const QModelIndex &index, const QVariant &value, int role) override;
     QStringList mimeTypes() const override;
     QMimeData *mimeData(const QModelIndexList &indexes) const override;

@@ -130,7 +130,8 @@ QVariant FieldWordsModel::headerData(int section, Qt::Orientation orientation, i
     if (role == Qt::TextAlignmentRole) {
         const bool right = column == ColumnKind::Address || column == ColumnKind::Value || column == ColumnKind::Default
             || column == ColumnKind::Range;
-        const Qt::Alignment side = column == ColumnKind::Plot ? Qt::AlignHCenter : right ? Qt::AlignRight : Qt::AlignLeft;
+        const bool centred = column == ColumnKind::Plot;
+        const Qt::Alignment side = centred ? Qt::AlignHCenter : right ? Qt::AlignRight : Qt::AlignLeft;
         return static_cast<int>(side | Qt::AlignVCenter);
     }
     if (role == Qt::ToolTipRole) {

@@ -8,7 +8,8 @@
 
 namespace dynascope {
 
-/// Says FieldTableModel's raw values in words: text, tool tips, headers. Also as number and unit apart, for who paints them.
+/// Says FieldTableModel's raw values in words: text, tool tips, headers. Also as number and unit apart, for who paints
+/// them.
 class FieldWordsModel : public QIdentityProxyModel
 {
     Q_OBJECT

@@ -10,8 +10,8 @@ namespace dynascope {
 /// The registers that set the goal in this Operating Mode, the main one first; empty where there is none.
 std::vector<int> goalFields(const Device &device);
 
-/// The goals that the present Operating Mode uses, each with its slider. Keeps its place while torque is off, so that nothing
-/// jumps at STOP.
+/// The goals that the present Operating Mode uses, each with its slider. Keeps its place while torque is off, so that
+/// nothing jumps at STOP.
 class GoalBar : public QFrame
 {
     Q_OBJECT

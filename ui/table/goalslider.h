@@ -14,8 +14,8 @@ class QSlider;
 
 namespace dynascope {
 
-/// One goal register under the hand: a slider and a number. Writes while it moves, shows what the servo says while it doesn't.
-/// Only devices under torque are written to: a goal may turn torque on (Drive Mode bit 3).
+/// One goal register under the hand: a slider and a number. Writes while it moves, shows what the servo says while it
+/// doesn't. Only devices under torque are written to: a goal may turn torque on (Drive Mode bit 3).
 class GoalSlider : public QWidget
 {
     Q_OBJECT

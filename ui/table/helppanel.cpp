@@ -144,8 +144,9 @@ void HelpPanel::showCell(const QModelIndex &cell)
     if (const QString range = withUnits(*field, effective, resolution, m_angle, effective.minimum, effective.maximum);
         !range.isEmpty() && field->isWritable() && field->values.empty())
         facts << tr("Range %1").arg(range);
-    if (field->initial && field->isWritable())
-        facts << tr("Default %1").arg(withUnits(*field, effective, resolution, m_angle, field->initial, field->initial));
+    const auto &initial = field->initial;
+    if (initial && field->isWritable())
+        facts << tr("Default %1").arg(withUnits(*field, effective, resolution, m_angle, initial, initial));
     if (!facts.isEmpty())
         lines << facts.join(QStringLiteral(" &nbsp;·&nbsp; "));
     if (const QString meanings = meaningsText(*field); !meanings.isEmpty())

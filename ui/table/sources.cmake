@@ -7,7 +7,7 @@ target_sources(dynascope_ui PRIVATE
     table/fielddelegate.cpp table/fielddelegate.h
     table/fieldfiltermodel.cpp table/fieldfiltermodel.h
     table/fieldgroups.cpp table/fieldgroups.h
-    table/fieldtablemodel.cpp table/fieldtablemodel.h
+    table/fieldtablemodel.cpp table/fieldtablemodel.h table/fieldtablemodel_updates.cpp
     table/fieldwordsmodel.cpp table/fieldwordsmodel.h
     table/goalbar.cpp table/goalbar.h
     table/goalslider.cpp table/goalslider.h

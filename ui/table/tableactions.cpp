@@ -12,7 +12,8 @@ TableActions tableActions(const Workbench &workbench)
     Commands &commands = workbench.commands;
     Monitor &monitor = workbench.monitor;
     TableActions actions;
-    actions.write = [&commands](Device &device, int field, std::int64_t raw) { commands.writeField(device, field, raw); };
+    actions.write
+        = [&commands](Device &device, int field, std::int64_t raw) { commands.writeField(device, field, raw); };
     actions.torqueOff = [&commands](const std::vector<Device *> &devices, std::function<void(Result<void>)> done) {
         commands.setTorque(devices, false, std::move(done));
     };

@@ -21,7 +21,7 @@ TableEmpty::TableEmpty(QWidget *parent)
     m_title->setObjectName(QStringLiteral("tableEmptyTitle"));
     m_text->setObjectName(QStringLiteral("tableEmptyText"));
     m_text->setWordWrap(true);
-    m_text->setFixedWidth(340); // a fixed width, or the layout asks for too little height
+    m_text->setFixedWidth(340);
     m_text->setAlignment(Qt::AlignHCenter);
     m_text->setForegroundRole(QPalette::PlaceholderText);
     m_text->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -39,6 +39,7 @@ void TableEmpty::setTexts(const QString &title, const QString &text)
 {
     m_title->setText(title);
     m_text->setText(text);
+    m_text->setFixedHeight(m_text->heightForWidth(m_text->maximumWidth())); // centred labels get too little by themselves
 }
 
 } // namespace dynascope

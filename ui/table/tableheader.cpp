@@ -30,13 +30,13 @@ void TableHeader::paintSection(QPainter *painter, const QRect &rect, int section
     painter->drawLine(rect.bottomLeft(), rect.bottomRight());
     if (section + 1 < count()) // where the mouse can pull
         painter->drawLine(rect.right(), rect.top() + 6, rect.right(), rect.bottom() - 6);
-    const auto alignment = static_cast<Qt::Alignment>(model()->headerData(section, orientation(), Qt::TextAlignmentRole).toInt());
-    const QRect text = rect.adjusted(alignment & Qt::AlignHCenter ? 0 : CellMargin, 0,
-                                     alignment & Qt::AlignHCenter ? 0 : -CellMargin, 0);
+    const auto said = [&](int role) { return model()->headerData(section, orientation(), role); };
+    const auto alignment = static_cast<Qt::Alignment>(said(Qt::TextAlignmentRole).toInt());
+    const int margin = alignment & Qt::AlignHCenter ? 0 : CellMargin;
+    const QRect text = rect.adjusted(margin, 0, -margin, 0);
     painter->setPen(theme.dimmed);
     painter->drawText(text, static_cast<int>(alignment) | Qt::TextSingleLine,
-                      fontMetrics().elidedText(model()->headerData(section, orientation(), Qt::DisplayRole).toString(),
-                                               Qt::ElideMiddle, text.width()));
+                      fontMetrics().elidedText(said(Qt::DisplayRole).toString(), Qt::ElideMiddle, text.width()));
 }
 
 } // namespace dynascope

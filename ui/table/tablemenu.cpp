@@ -38,7 +38,7 @@ void popupTableMenu(const QModelIndex &cell, const TableMenuActions &actions, co
     add(menu, QStringLiteral("refresh"), QMenu::tr("Read again"), actions.readAgain);
     if (actions.applyToAll) {
         menu->addSeparator();
-        QAction *all = menu->addAction(QMenu::tr("Apply edits to all %n devices", nullptr, actions.deviceCount));
+        QAction *all = menu->addAction(QMenu::tr("Apply edits to all %1 devices").arg(actions.deviceCount));
         all->setCheckable(true);
         all->setChecked(actions.appliesToAll);
         QObject::connect(all, &QAction::toggled, menu, actions.applyToAll);

@@ -182,8 +182,8 @@ void TablePanel::setEmptyText()
                              "what it means, and an editor where it can be changed."));
     } else if (!devices.front()->isKnownModel()) {
         m_empty->setTexts(tr("Unknown model %1").arg(devices.front()->modelNumber()),
-                          tr("There is no control table for this model yet. Its registers can be read by address on the "
-                             "command line: dxl read %1 ADDRESS:LENGTH").arg(devices.front()->id()));
+                          tr("There is no control table for this model yet. Its registers can be read by address on "
+                             "the command line: dxl read %1 ADDRESS:LENGTH").arg(devices.front()->id()));
     }
     m_pages->setCurrentIndex(devices.empty() || !devices.front()->isKnownModel() ? 0 : 1);
 }

@@ -11,8 +11,8 @@ namespace dynascope {
 /// What a column of the table shows.
 enum class ColumnKind { Name, Plot, Address, Value, Physical, Device, Default, Range, Access };
 
-/// Raw roles of FieldTableModel, and below them the words FieldWordsModel adds. Delegates, filters and editors know these and
-/// no model. A group's row has none but GroupRole.
+/// Raw roles of FieldTableModel, and below them the words FieldWordsModel adds. Delegates, filters and editors know
+/// these and no model. A group's row has none but GroupRole.
 enum TableRole {
     GroupRole = Qt::UserRole, ///< QString: the group's title
     FieldRole,                ///< int: index in the device's table; missing for groups
@@ -25,7 +25,7 @@ enum TableRole {
     EffectiveRole,            ///< EffectiveField
     ResolutionRole,           ///< int: pulses per revolution
     DiffersRole,              ///< bool: not what the first device has, in a register a person sets
-    ChangedFromDefaultRole,   ///< bool: writable, and not as it came from the factory; of any device in the name's column
+    ChangedFromDefaultRole,   ///< bool: writable, not as it left the factory; of any device but in values' columns
     WatchedRole,              ///< int: Qt::CheckState over all devices
     LockRole,                 ///< QString: why it can't be written now; empty where it can
     FadeRole,                 ///< double: 1 just changed … 0

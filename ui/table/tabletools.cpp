@@ -69,8 +69,8 @@ void TableTools::setDeviceCount(int count)
     const bool several = count > 1;
     m_different->setVisible(several);
     m_editAll->setVisible(several);
-    m_editAll->setText(tr("Apply to all %n", nullptr, count));
-    m_editAll->setToolTip(tr("An edit is written to all %n selected devices", nullptr, count));
+    m_editAll->setText(tr("Apply to all %1").arg(count));
+    m_editAll->setToolTip(tr("An edit is written to all %1 selected devices").arg(count));
     if (!several) {
         m_different->setChecked(false);
         m_editAll->setChecked(false);

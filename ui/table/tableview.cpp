@@ -178,7 +178,7 @@ void TableView::startDrag(Qt::DropActions /*actions*/)
     QMimeData *mime = model()->mimeData(rows);
     if (!mime)
         return;
-    const QString name = rows.size() == 1 ? rows.front().data().toString() : tr("%n registers", nullptr, int(rows.size()));
+    const QString name = rows.size() == 1 ? rows.front().data().toString() : tr("%1 registers").arg(rows.size());
     const QSize size(fontMetrics().horizontalAdvance(name) + 24, fontMetrics().height() + 12);
     QPixmap picture(size * devicePixelRatioF());
     picture.setDevicePixelRatio(devicePixelRatioF());

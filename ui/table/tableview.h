@@ -10,8 +10,8 @@
 
 namespace dynascope {
 
-/// The grid: rows of registers under groups. Enter and F2 edit, Space plots, Left and Right go along the values of a row.
-/// Column widths never follow the content.
+/// The grid: rows of registers under groups. Enter and F2 edit, Space plots, Left and Right go along the values of a
+/// row. Column widths never follow the content.
 class TableView : public QTreeView
 {
     Q_OBJECT

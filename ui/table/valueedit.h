@@ -10,7 +10,8 @@ class QLabel;
 
 namespace dynascope {
 
-/// Types a number, raw or with its unit; says at once what it stands for, or why it can't be. Up, Down and the wheel step it.
+/// Types a number, raw or with its unit; says at once what it stands for, or why it can't be. Up, Down and the wheel
+/// step it.
 class ValueEdit : public QLineEdit
 {
     Q_OBJECT

@@ -32,21 +32,25 @@ void TorqueGuard::onFields(Device *device, int first, int last)
     if (torque < first || torque > last)
         return;
     const FieldValue &value = device->value(torque);
+    const auto known = m_enabled.find(device->key());
     if (value.pending == 1)
-        m_enabled.insert(device->key());
-    else if (value.raw == 0 && !value.pending)
-        m_enabled.erase(device->key());
+        m_enabled.insert_or_assign(device->key(), false);
+    else if (known != m_enabled.end() && value.raw == 1)
+        known->second = true;
+    else if (known != m_enabled.end() && value.raw == 0 && known->second)
+        m_enabled.erase(known); // whoever turns it on next is not necessarily us
 }
 
 void TorqueGuard::noteEnabled(const std::vector<DeviceKey> &devices)
 {
-    m_enabled.insert(devices.begin(), devices.end());
+    for (const DeviceKey key : devices)
+        m_enabled.insert_or_assign(key, true);
 }
 
 std::vector<Device *> TorqueGuard::holding() const
 {
     std::vector<Device *> devices;
-    for (const DeviceKey key : m_enabled) {
+    for (const auto &[key, seen] : m_enabled) {
         Device *device = m_workbench.session.device(key);
         if (device && device->isTorqueOn() && device->line()->state() == BusThread::State::Open)
             devices.push_back(device);

@@ -58,6 +58,8 @@ WelcomePage::WelcomePage(PortList &ports, QWidget *parent)
     m_simulate->setToolTip(tr("A small arm of six servos and a fresh one, without any hardware"));
     connect(m_simulate, &QPushButton::clicked, this, [this] { emit connectRequested(QStringLiteral("sim")); });
 
+    setFocusProxy(m_connect);
+
     auto *column = new QVBoxLayout;
     column->setSpacing(8);
     column->addStretch(2);
