@@ -8,6 +8,9 @@ target_compile_definitions(dynascope_flags INTERFACE
     QT_DISABLE_DEPRECATED_BEFORE=0x060400)
 target_compile_options(dynascope_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
     -Woverloaded-virtual -Wcast-align -Wunused -Wimplicit-fallthrough)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(dynascope_flags INTERFACE -fpch-preprocess) # lets ccache see through precompiled headers
+endif()
 if(DYNASCOPE_WERROR)
     target_compile_options(dynascope_flags INTERFACE -Werror)
 endif()

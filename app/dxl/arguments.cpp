@@ -93,7 +93,7 @@ Result<Bytes> parseRawValue(const RegisterArgument &argument)
         digits.remove(0, 2);
     digits.remove(u' ').remove(u':');
     static const QRegularExpression pairs(QStringLiteral("^([0-9a-fA-F]{2})+$"));
-    if (!pairs.match(digits).hasMatch() || digits.size() != 2 * argument.length) {
+    if (!pairs.match(digits).hasMatch() || digits.size() != qsizetype(2) * argument.length) {
         return wrong(QStringLiteral("%1 takes %2 bytes as %3 hexadecimal digits, not \"%4\"")
                          .arg(argument.text()).arg(argument.length).arg(2 * argument.length).arg(argument.value));
     }

@@ -87,6 +87,44 @@ void drawSpinBox(const QStyleOptionSpinBox &option, QPainter *painter, const QSt
     button(QStyle::SC_SpinBoxDown, QAbstractSpinBox::StepDownEnabled, QStringLiteral("chevron-down"));
 }
 
+void drawCheckBox(const QStyleOption &option, QPainter *painter)
+{
+    const bool enabled = option.state & QStyle::State_Enabled;
+    const bool set = option.state & (QStyle::State_On | QStyle::State_NoChange);
+    const QColor mark = enabled ? option.palette.color(QPalette::Highlight) : option.palette.color(QPalette::Mid);
+    const int side = qMin(option.rect.width(), option.rect.height());
+    QRect box(0, 0, side, side);
+    box.moveCenter(option.rect.center());
+    drawBox(painter, box, set ? mark : option.palette.color(QPalette::Base), set ? mark : controlBorder(option));
+    if (set) {
+        const bool half = option.state & QStyle::State_NoChange;
+        paintIcon(painter, QRectF(box).adjusted(1, 1, -1, -1), half ? QStringLiteral("minus") : QStringLiteral("check"),
+            Qt::white);
+    }
+}
+
+void drawRadioButton(const QStyleOption &option, QPainter *painter)
+{
+    const bool enabled = option.state & QStyle::State_Enabled;
+    const bool set = option.state & QStyle::State_On;
+    const QColor mark = enabled ? option.palette.color(QPalette::Highlight) : option.palette.color(QPalette::Mid);
+    const qreal side = qMin(option.rect.width(), option.rect.height()) - 1;
+    QRectF circle(0, 0, side, side);
+    circle.moveCenter(QRectF(option.rect).center());
+    painter->save();
+    painter->setRenderHint(QPainter::Antialiasing);
+    painter->setPen(QPen(set ? mark : controlBorder(option), 1));
+    painter->setBrush(set ? mark : option.palette.color(QPalette::Base));
+    painter->drawEllipse(circle);
+    if (set) {
+        painter->setPen(Qt::NoPen);
+        painter->setBrush(Qt::white);
+        const qreal inset = side * 0.32;
+        painter->drawEllipse(circle.adjusted(inset, inset, -inset, -inset));
+    }
+    painter->restore();
+}
+
 void drawScrollBar(const QStyleOptionSlider &option, QPainter *painter)
 {
     const QColor base = option.palette.color(QPalette::Base);
@@ -120,8 +158,8 @@ QRect scrollBarRect(const QStyleOptionSlider &option, QStyle::SubControl part)
         const auto share = static_cast<qint64>(option.pageStep) * whole / (range + option.pageStep);
         length = qBound(qMin(ShortestHandle, whole), static_cast<int>(share), whole);
     }
-    const int begin = QStyle::sliderPositionFromValue(option.minimum, option.maximum, option.sliderPosition, whole - length,
-                                                      option.upsideDown);
+    const int begin = QStyle::sliderPositionFromValue(
+        option.minimum, option.maximum, option.sliderPosition, whole - length, option.upsideDown);
     const auto along = [&option, across](int from, int size) {
         const QRect &rect = option.rect;
         return across ? QRect(rect.left() + from, rect.top(), size, rect.height())

@@ -20,6 +20,9 @@ QColor controlBorder(const QStyleOption &option); ///< by enabled and focus
 void drawComboBox(const QStyleOptionComboBox &option, QPainter *painter, const QStyle &style);
 void drawSpinBox(const QStyleOptionSpinBox &option, QPainter *painter, const QStyle &style);
 
+void drawCheckBox(const QStyleOption &option, QPainter *painter);
+void drawRadioButton(const QStyleOption &option, QPainter *painter);
+
 /// A rounded handle on a quiet track, without arrows.
 void drawScrollBar(const QStyleOptionSlider &option, QPainter *painter);
 QRect scrollBarRect(const QStyleOptionSlider &option, QStyle::SubControl part);

@@ -2,6 +2,7 @@
 #include "ui/common/flatstyle.h"
 
 #include "ui/common/flatcontrols.h"
+#include "ui/common/icons.h"
 #include "ui/common/theme.h"
 
 #include <QFrame>
@@ -13,6 +14,8 @@ namespace dynascope {
 namespace {
 
 constexpr int IconGap = 7;
+constexpr int ButtonPadding = 24; ///< left and right of a button's text, together
+constexpr int ButtonHeight = 28;
 
 /// Buttons show the focus only where the keyboard brought it.
 QColor plainBorder(const QStyleOption *option)
@@ -43,7 +46,8 @@ void drawPushButton(const QStyleOption *option, QPainter *painter)
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
     const bool flat = button && (button->features & QStyleOptionButton::Flat);
     const bool plain = !(option->state & (QStyle::State_Sunken | QStyle::State_On | QStyle::State_MouseOver));
-    const bool focused = (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
+    const bool focused =
+        (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
     if (flat && plain && !focused)
         return;
     const bool isDefault = button && (button->features & QStyleOptionButton::DefaultButton);
@@ -58,7 +62,8 @@ void drawToolButton(const QStyleOption *option, QPainter *painter)
     const bool raised = !(option->state & QStyle::State_AutoRaise);
     const bool active = option->state & (QStyle::State_Sunken | QStyle::State_On | QStyle::State_MouseOver);
     const bool enabled = option->state & QStyle::State_Enabled;
-    const bool focused = (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
+    const bool focused =
+        (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
     if (!raised && !focused && (!active || !enabled))
         return;
     QStyleOption copy = *option;
@@ -126,7 +131,11 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
         painter->restore();
         return;
     }
+    case PE_IndicatorCheckBox:
+    case PE_IndicatorItemViewItemCheck: drawCheckBox(*option, painter); return;
+    case PE_IndicatorRadioButton: drawRadioButton(*option, painter); return;
     case PE_FrameStatusBarItem: return;
+    case PE_PanelScrollAreaCorner: painter->fillRect(option->rect, option->palette.color(QPalette::Base)); return;
     case PE_IndicatorToolBarSeparator: {
         const QRect &rect = option->rect;
         const ThemeColors &theme = colors(option->palette);
@@ -205,9 +214,23 @@ QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption *option,
 {
     QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
-    if (type == CT_PushButton && button && !button->icon.isNull() && !button->text.isEmpty())
-        result.rwidth() += IconGap + 2;
+    if (type != CT_PushButton || !button || button->text.isEmpty())
+        return result;
+    const int gap = button->icon.isNull() ? 0 : IconGap + 2;
+    result = result.expandedTo(QSize(size.width() + gap + ButtonPadding, ButtonHeight));
     return result;
+}
+
+QIcon FlatStyle::standardIcon(StandardPixmap standard, const QStyleOption *option, const QWidget *widget) const
+{
+    switch (standard) {
+    case SP_MessageBoxQuestion: return icon(QStringLiteral("help"), IconTint::Accent);
+    case SP_MessageBoxInformation: return icon(QStringLiteral("info"), IconTint::Accent);
+    case SP_MessageBoxWarning: return icon(QStringLiteral("warning"), IconTint::Warning);
+    case SP_MessageBoxCritical: return icon(QStringLiteral("error"), IconTint::Bad);
+    case SP_LineEditClearButton: return icon(QStringLiteral("close"), IconTint::Dimmed);
+    default: return QProxyStyle::standardIcon(standard, option, widget);
+    }
 }
 
 int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const QWidget *widget) const

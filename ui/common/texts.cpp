@@ -54,11 +54,10 @@ QString portText(const QString &name)
 
 QString lineStateText(const LineSession &line)
 {
-    const QString name = portText(line.name());
     switch (line.state()) {
-    case BusThread::State::Opening: return tr("Opening %1…").arg(name);
+    case BusThread::State::Opening: return tr("Opening…");
     case BusThread::State::Open: return tr("Connected at %1").arg(baudText(line.baudRate()));
-    case BusThread::State::Lost: return tr("%1 is gone").arg(name);
+    case BusThread::State::Lost: return tr("Connection lost");
     case BusThread::State::Closed: break;
     }
     return tr("Not connected");

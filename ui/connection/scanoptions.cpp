@@ -48,12 +48,29 @@ ScanOptions::ScanOptions(QWidget *parent)
     for (const int baud : allBauds()) {
         auto *item = new QListWidgetItem(baudText(baud), m_bauds);
         item->setData(BaudRole, baud);
+        item->setSizeHint(QSize(0, fontMetrics().height() + 8));
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable | Qt::ItemIsSelectable);
     }
     setBauds(likelyBauds(0));
     m_bauds->setFixedHeight(m_bauds->sizeHintForRow(0) * m_bauds->count() + 8);
     m_bauds->setMinimumWidth(200);
 
+    build();
+    connect(m_bauds, &QListWidget::itemChanged, this, &ScanOptions::update);
+    connect(m_firstId, &QSpinBox::valueChanged, this, [this](int first) {
+        m_lastId->setMinimum(first);
+        update();
+    });
+    connect(m_lastId, &QSpinBox::valueChanged, this, &ScanOptions::update);
+    connect(m_scan, &QPushButton::clicked, this, [this] {
+        hide();
+        emit scanRequested();
+    });
+    update();
+}
+
+void ScanOptions::build()
+{
     auto *likely = new QPushButton(tr("Likely"), this);
     auto *all = new QPushButton(tr("All"), this);
     auto *none = new QPushButton(tr("None"), this);
@@ -82,18 +99,6 @@ ScanOptions::ScanOptions(QWidget *parent)
     layout->addLayout(ids);
     layout->addWidget(m_summary);
     layout->addWidget(m_scan);
-
-    connect(m_bauds, &QListWidget::itemChanged, this, &ScanOptions::update);
-    connect(m_firstId, &QSpinBox::valueChanged, this, [this](int first) {
-        m_lastId->setMinimum(first);
-        update();
-    });
-    connect(m_lastId, &QSpinBox::valueChanged, this, &ScanOptions::update);
-    connect(m_scan, &QPushButton::clicked, this, [this] {
-        hide();
-        emit scanRequested();
-    });
-    update();
 }
 
 void ScanOptions::popup(const QPoint &position)
@@ -101,7 +106,7 @@ void ScanOptions::popup(const QPoint &position)
     adjustSize();
     move(position);
     show();
-    m_bauds->setFocus();
+    m_scan->setFocus();
 }
 
 std::vector<int> ScanOptions::checkedBauds() const

@@ -82,7 +82,7 @@ void StopButton::paintEvent(QPaintEvent *)
     painter.setBrush(fill);
     painter.setPen(active ? QPen(Red, 2) : QPen(Qt::NoPen));
     painter.drawRoundedRect(box, 5, 5);
-    if (hasFocus()) {
+    if (hasFocus() && window()->testAttribute(Qt::WA_KeyboardFocusChange)) {
         painter.setBrush(Qt::NoBrush);
         painter.setPen(QPen(active ? colors(palette()).accent : QColor(Qt::white), 1.5));
         painter.drawRoundedRect(box.adjusted(3, 3, -3, -3), 3, 3);
@@ -94,7 +94,8 @@ void StopButton::paintEvent(QPaintEvent *)
     paintIcon(&painter, QRectF(left, (height() - IconSize) / 2.0, IconSize, IconSize),
               active ? QStringLiteral("unlock") : QStringLiteral("stop"), ink);
     painter.setPen(ink);
-    painter.drawText(QRect(left + IconSize + Gap, 0, textWidth + 4, height()), Qt::AlignVCenter | Qt::AlignLeft, text());
+    painter.drawText(
+        QRect(left + IconSize + Gap, 0, textWidth + 4, height()), Qt::AlignVCenter | Qt::AlignLeft, text());
 }
 
 } // namespace dynascope

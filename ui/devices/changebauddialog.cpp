@@ -25,7 +25,7 @@ ChangeBaudDialog::ChangeBaudDialog(Device &device, Commands &commands, QWidget *
             m_baud->addItem(baudText(code.rate), code.rate);
     }
     const int working = device.line() ? m_baud->findData(device.line()->baudRate()) : -1;
-    m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(1'000'000)));
+    m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(57600)));
     form()->addRow(tr("Present baud rate"), new QLabel(baudText(device.baudRate()), this));
     form()->addRow(tr("New baud rate"), m_baud);
     connect(m_baud, &QComboBox::currentIndexChanged, this, [this] { check(); });
@@ -58,11 +58,13 @@ void ChangeBaudDialog::check()
     else if (joins)
         setNote(MessageKind::Info, tr("That is the rate the line works at: the device joins the others."));
     else if (isAlone())
-        setNote(MessageKind::Info, tr("It is the only device that works here: the line follows it to %1.").arg(baudText(baud)));
+        setNote(MessageKind::Info,
+            tr("It is the only device that works here: the line follows it to %1.").arg(baudText(baud)));
     else
-        setNote(MessageKind::Warning, tr("The line goes on at %1: this device will be parked, and isn't polled or plotted "
-                                         "until the line works at %2.")
-                                          .arg(line ? baudText(line->baudRate()) : QString(), baudText(baud)));
+        setNote(MessageKind::Warning,
+            tr("The line goes on at %1: this device will be parked, and isn't polled or plotted "
+               "until the line works at %2.")
+                .arg(line ? baudText(line->baudRate()) : QString(), baudText(baud)));
 }
 
 void ChangeBaudDialog::accept()

@@ -44,6 +44,7 @@ void showShortcuts(QMainWindow &window)
     list->setHeaderLabels({tr("Action"), tr("Keys")});
     list->setRootIsDecorated(false);
     list->setAlternatingRowColors(true);
+    list->setSelectionMode(QAbstractItemView::NoSelection);
     list->setAccessibleName(tr("Keyboard shortcuts"));
 
     std::map<QString, QString> keys; // by name, each once
@@ -51,9 +52,13 @@ void showShortcuts(QMainWindow &window)
         if (!action->shortcut().isEmpty() && !action->text().isEmpty())
             keys[plainText(*action)] = action->shortcut().toString(QKeySequence::NativeText);
     }
-    new QTreeWidgetItem(list, {tr("STOP: torque off everywhere, at once"), tr("Esc, anywhere")});
+    const auto addRow = [list](const QString &text, const QString &key) {
+        auto *item = new QTreeWidgetItem(list, {text, key});
+        item->setSizeHint(0, QSize(0, list->fontMetrics().height() + 8));
+    };
+    addRow(tr("STOP: torque off everywhere, at once"), tr("Esc, anywhere"));
     for (const auto &[text, key] : keys)
-        new QTreeWidgetItem(list, {text, key});
+        addRow(text, key);
     list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
     list->header()->setStretchLastSection(false);
@@ -78,9 +83,10 @@ void showAbout(QMainWindow &window)
     box->setTextFormat(Qt::PlainText);
     const QString version = QCoreApplication::applicationVersion();
     box->setText(version.isEmpty() ? tr("Dynascope") : tr("Dynascope %1").arg(version));
-    box->setInformativeText(tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
-                               "Free software under the GNU General Public License, version 3 or later. It comes without any "
-                               "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
+    box->setInformativeText(
+        tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
+           "Free software under the GNU General Public License, version 3 or later. It comes without any "
+           "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
     box->open();
 }
 

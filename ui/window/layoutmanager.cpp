@@ -71,7 +71,8 @@ void LayoutManager::apply(PlotPlace place)
     if (state.isEmpty() || !m_inner.restoreState(state)) {
         m_inner.setOrientation(place == PlotPlace::Right ? Qt::Horizontal : Qt::Vertical);
         const int whole = place == PlotPlace::Right ? m_inner.width() : m_inner.height();
-        m_inner.setSizes({whole * 55 / 100, whole * 45 / 100});
+        const int table = whole * (place == PlotPlace::Right ? 55 : 60) / 100;
+        m_inner.setSizes({table, whole - table});
     }
     m_inner.setHandleWidth(1);
     m_inner.setChildrenCollapsible(false);

@@ -22,7 +22,8 @@ TorqueGuard::TorqueGuard(const Workbench &workbench, QWidget *window)
 
 void TorqueGuard::follow(Device *device)
 {
-    connect(device, &Device::fieldsChanged, this, [this, device](int first, int last) { onFields(device, first, last); });
+    connect(
+        device, &Device::fieldsChanged, this, [this, device](int first, int last) { onFields(device, first, last); });
 }
 
 void TorqueGuard::onFields(Device *device, int first, int last)
@@ -32,21 +33,25 @@ void TorqueGuard::onFields(Device *device, int first, int last)
     if (torque < first || torque > last)
         return;
     const FieldValue &value = device->value(torque);
+    const auto known = m_enabled.find(device->key());
     if (value.pending == 1)
-        m_enabled.insert(device->key());
-    else if (value.raw == 0 && !value.pending)
-        m_enabled.erase(device->key());
+        m_enabled.insert_or_assign(device->key(), false);
+    else if (known != m_enabled.end() && value.raw == 1)
+        known->second = true;
+    else if (known != m_enabled.end() && value.raw == 0 && known->second)
+        m_enabled.erase(known); // whoever turns it on next is not necessarily us
 }
 
 void TorqueGuard::noteEnabled(const std::vector<DeviceKey> &devices)
 {
-    m_enabled.insert(devices.begin(), devices.end());
+    for (const DeviceKey key : devices)
+        m_enabled.insert_or_assign(key, true);
 }
 
 std::vector<Device *> TorqueGuard::holding() const
 {
     std::vector<Device *> devices;
-    for (const DeviceKey key : m_enabled) {
+    for (const auto &[key, seen] : m_enabled) {
         Device *device = m_workbench.session.device(key);
         if (device && device->isTorqueOn() && device->line()->state() == BusThread::State::Open)
             devices.push_back(device);
@@ -65,10 +70,10 @@ bool TorqueGuard::mayClose()
     for (const Device *device : devices)
         names << device->displayName();
     auto *box = new QMessageBox(QMessageBox::Question, tr("Devices under torque"),
-                                tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
-                                    .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
-                                                           : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
-                                QMessageBox::Cancel, m_window);
+        tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
+            .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
+                                   : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
+        QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("torqueBox"));
     box->setAttribute(Qt::WA_DeleteOnClose);
     QPushButton *leave = box->addButton(tr("Leave it on and close"), QMessageBox::AcceptRole);
@@ -83,10 +88,11 @@ bool TorqueGuard::mayClose()
     connect(leave, &QPushButton::clicked, this, agree);
     connect(off, &QPushButton::clicked, this, [this, agree] {
         // A failure is said in the message bar, and the window stays.
-        m_workbench.commands.setTorque(holding(), false, [here = QPointer<TorqueGuard>(this), agree](const Result<void> &result) {
-            if (here && result)
-                agree();
-        });
+        m_workbench.commands.setTorque(
+            holding(), false, [here = QPointer<TorqueGuard>(this), agree](const Result<void> &result) {
+                if (here && result)
+                    agree();
+            });
     });
     box->open();
     return false;

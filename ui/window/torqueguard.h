@@ -4,7 +4,7 @@
 #include "core/session/session.h"
 #include "ui/common/workbench.h"
 
-#include <set>
+#include <map>
 
 class QWidget;
 
@@ -33,7 +33,7 @@ private:
 
     Workbench m_workbench;
     QWidget *m_window;
-    std::set<DeviceKey> m_enabled;
+    std::map<DeviceKey, bool> m_enabled; ///< true: has been seen on since
     bool m_agreed = false;
 };
 

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/uitest.h"
+#include "tests/support/workbenchfixture.h"
+#include "ui/common/elidedlabel.h"
+#include "ui/connection/baudcombo.h"
+#include "ui/connection/connectionbar.h"
+#include "ui/connection/connector.h"
+#include "ui/connection/portcombo.h"
+#include "ui/connection/scanoptions.h"
+#include "ui/connection/stopbutton.h"
+
+#include <QLineEdit>
+#include <QListWidget>
+#include <QPushButton>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QSpinBox>
+#include <QToolButton>
+
+using namespace dynascope;
+
+class TestConnectionBar : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init()
+    {
+        QSettings().clear();
+        m_bench = std::make_unique<test::WorkbenchFixture>();
+        m_connector = std::make_unique<Connector>(m_bench->workbench());
+        connect(
+            m_connector.get(), &Connector::posted, this, [this](const Message &message) { m_said << message.text; });
+        m_bar = std::make_unique<ConnectionBar>(m_bench->workbench(), *m_connector);
+        m_bar->show();
+        m_said.clear();
+    }
+    void cleanup()
+    {
+        m_bar.reset();
+        m_connector.reset();
+        m_bench.reset();
+    }
+
+    void readsBaudRates_data()
+    {
+        QTest::addColumn<int>("baud");
+        QTest::newRow("57600") << 57600;
+        QTest::newRow("57 600 bps") << 57600;
+        QTest::newRow("57\u2009600 bps") << 57600;
+        QTest::newRow("1M") << 1000000;
+        QTest::newRow("1 Mbps") << 1000000;
+        QTest::newRow("4.5 Mbps") << 4500000;
+        QTest::newRow("115.2k") << 115200;
+        QTest::newRow("10.5 mbps") << 10500000;
+        QTest::newRow("") << 0;
+        QTest::newRow("fast") << 0;
+        QTest::newRow("-9600") << 0;
+        QTest::newRow("12") << 0;
+        QTest::newRow("99 Mbps") << 0;
+        QTest::newRow("1e6") << 0;
+    }
+    void readsBaudRates()
+    {
+        QFETCH(int, baud);
+        QCOMPARE(BaudCombo::parse(QString::fromUtf8(QTest::currentDataTag())), baud);
+    }
+
+    void listsThePortsThereAre()
+    {
+        auto *ports = find<PortCombo>("portCombo");
+        QCOMPARE(ports->count(), 2);
+        QCOMPARE(ports->itemText(1), QStringLiteral("Simulated bus"));
+        ports->setCurrentIndex(1);
+        QCOMPARE(ports->port(), QStringLiteral("sim"));
+        m_bench->lines.unplug();
+        ports->refresh();
+        QCOMPARE(ports->count(), 1);
+        QCOMPARE(ports->port(), QStringLiteral("sim"));
+        ports->setEditText(QStringLiteral("  /dev/pts/7 "));
+        QCOMPARE(ports->port(), QStringLiteral("/dev/pts/7"));
+        ports->refresh();
+        QCOMPARE(ports->port(), QStringLiteral("/dev/pts/7"));
+    }
+
+    void connectsScansAndSaysSo()
+    {
+        auto *button = find<QPushButton>("connectButton");
+        auto *scan = find<QPushButton>("scanButton");
+        QCOMPARE(button->text(), QStringLiteral("Connect"));
+        QVERIFY(!scan->isEnabled());
+        m_bar->setPort(QStringLiteral("sim"), 1000000);
+        QTest::mouseClick(button, Qt::LeftButton);
+        QTRY_COMPARE(m_bench->session.devices().size(), std::size_t(3));
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
+        QCOMPARE(button->text(), QStringLiteral("Disconnect"));
+        QCOMPARE(find<ElidedLabel>("connectionState")->text(), QStringLiteral("Connected at 1 Mbps"));
+        QTRY_COMPARE(m_said, QStringList{QStringLiteral("3 devices found")});
+        QVERIFY(scan->isEnabled());
+        QCOMPARE(Connector::lastPort(), QStringLiteral("sim"));
+        QCOMPARE(Connector::lastBaudRate(QStringLiteral("sim")), 1000000);
+
+        QTest::mouseClick(button, Qt::LeftButton);
+        QTRY_VERIFY(m_bench->session.lines().empty());
+        QCOMPARE(button->text(), QStringLiteral("Connect"));
+        QVERIFY(!scan->isEnabled());
+    }
+
+    void aPortThatCantBeOpened()
+    {
+        m_bar->setPort(QStringLiteral("/dev/forbidden"), 57600);
+        QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
+        QTRY_COMPARE(m_said, QStringList{QStringLiteral("No permission to open /dev/forbidden")});
+        QTRY_VERIFY(m_bench->session.lines().empty());
+        QVERIFY(Connector::lastPort().isEmpty()); // nothing to come back to
+        QCOMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Connect"));
+    }
+
+    void aPulledPlug()
+    {
+        connectNow();
+        m_bench->lines.unplug();
+        QTRY_VERIFY(!m_said.isEmpty() && m_said.last().contains(QStringLiteral("is gone")));
+        QCOMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Reconnect"));
+        QCOMPARE(m_bench->session.devices().size(), std::size_t(3)); // nothing lost on screen
+        const auto said = m_said.size();
+        m_bench->lines.unplug(false);
+        QTRY_COMPARE(m_bench->session.lines().front()->state(), BusThread::State::Open); // by itself
+        QTRY_VERIFY(m_said.size() == said + 1 && m_said.last().contains(QStringLiteral("is back")));
+        QCOMPARE(m_bench->session.devices().size(), std::size_t(3));
+    }
+
+    void movesTheLineToAnotherRate()
+    {
+        connectNow();
+        auto *baud = find<BaudCombo>("baudCombo");
+        baud->setEditText(QStringLiteral("57600"));
+        QTest::keyClick(baud->lineEdit(), Qt::Key_Return);
+        QTRY_COMPARE(m_bench->session.lines().front()->baudRate(), 57600);
+        QCOMPARE(find<ElidedLabel>("connectionState")->text(), QStringLiteral("Connected at 57\u2009600 bps"));
+    }
+
+    void chosenRatesAndIds()
+    {
+        connectNow();
+        for (const auto &line : m_bench->session.lines()) {
+            while (!line->devices().empty())
+                line->forget(line->devices().front()->key());
+        }
+        auto *options = m_bar->findChild<ScanOptions *>();
+        QTest::mouseClick(find<QToolButton>("scanOptionsButton"), Qt::LeftButton);
+        QVERIFY(options->isVisible());
+        options->setBauds({1000000});
+        options->findChild<QSpinBox *>(QStringLiteral("scanFirstId"))->setValue(2);
+        QTest::mouseClick(options->findChild<QPushButton *>(QStringLiteral("scanStart")), Qt::LeftButton);
+        QVERIFY(!options->isVisible());
+        QTRY_COMPARE(m_bench->session.devices().size(), std::size_t(1));
+        QCOMPARE(int(m_bench->session.devices().front()->id()), 4);
+    }
+
+    void scanOptionsOrderAndLimits()
+    {
+        ScanOptions options;
+        options.setBauds({9600, 57600, 1000000, 4000000});
+        QVERIFY(options.range(1000000).bauds == (std::vector<int>{1000000, 57600, 4000000, 9600}));
+        QVERIFY(options.range(250000).bauds.front() == 250000); // the line's own odd rate
+        options.findChild<QSpinBox *>(QStringLiteral("scanLastId"))->setValue(30);
+        options.findChild<QSpinBox *>(QStringLiteral("scanFirstId"))->setValue(40);
+        QVERIFY(options.range(0).firstId <= options.range(0).lastId);
+        options.setBauds({});
+        QVERIFY(!options.findChild<QPushButton *>(QStringLiteral("scanStart"))->isEnabled());
+    }
+
+    void stopAndRelease()
+    {
+        connectNow();
+        auto *button = find<StopButton>("stopButton");
+        QCOMPARE(button->text(), QStringLiteral("STOP"));
+        QSignalSpy changed(&m_bench->stop, &StopControl::changed);
+        QTest::mousePress(button, Qt::LeftButton);
+        QVERIFY(m_bench->stop.isActive()); // when it goes down, not when it comes up
+        QTest::mouseRelease(button, Qt::LeftButton);
+        QVERIFY(m_bench->stop.isActive());
+        QCOMPARE(button->text(), QStringLiteral("Release STOP"));
+        QTRY_VERIFY(m_bench->stop.isConfirmed());
+        QTest::mouseClick(button, Qt::LeftButton);
+        QVERIFY(!m_bench->stop.isActive());
+        QCOMPARE(button->text(), QStringLiteral("STOP"));
+        button->setFocus();
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(m_bench->stop.isActive());
+        const int width = button->sizeHint().width();
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(!m_bench->stop.isActive());
+        QCOMPARE(button->sizeHint().width(), width);
+    }
+
+private:
+    template <typename T>
+    T *find(const char *name)
+    {
+        T *child = m_bar->findChild<T *>(QString::fromLatin1(name));
+        if (!child)
+            qFatal("no %s", name);
+        return child;
+    }
+
+    void connectNow()
+    {
+        m_bar->setPort(QStringLiteral("/dev/ttyUSB0"), 1000000);
+        QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
+        QTRY_COMPARE(m_bench->session.devices().size(), std::size_t(3));
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
+    }
+
+    std::unique_ptr<test::WorkbenchFixture> m_bench;
+    std::unique_ptr<Connector> m_connector;
+    std::unique_ptr<ConnectionBar> m_bar;
+    QStringList m_said;
+};
+
+DYNASCOPE_UI_TEST(TestConnectionBar)
+#include "tst_connectionbar.moc"
