@@ -126,6 +126,7 @@ void MainWindow::connectConnection()
     connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
     connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);
+    connect(&m_workbench.stop, &StopControl::changed, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::progressChanged, this, &MainWindow::onLines);
     connect(m_welcome, &WelcomePage::choosePortRequested, m_bar, &ConnectionBar::choosePort);
     connect(m_welcome, &WelcomePage::connectRequested, this, connectHere);
@@ -190,7 +191,7 @@ void MainWindow::onLines()
     const bool open = line && line->state() == BusThread::State::Open;
     m_status->setLine(line);
     m_menus->setConnected(line != nullptr, open && !m_workbench.scanner.isRunning(),
-                          open && line->name() == QStringLiteral("sim"));
+                          open && line->name() == QStringLiteral("sim") && !m_workbench.stop.isActive());
     // A line that is only being opened for the first time changes nothing yet: it may not come to be.
     const auto &lines = m_workbench.session.lines();
     const bool any = std::ranges::any_of(lines, [](const auto &each) {

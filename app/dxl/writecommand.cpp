@@ -6,6 +6,8 @@
 #include "core/session/procedures/procedures.h"
 #include "core/table/units.h"
 
+#include <algorithm>
+
 namespace dynascope::dxl {
 
 namespace {
@@ -100,6 +102,32 @@ Result<void> writeOne(Output &output, Device &device, const Assignment &assignme
     return {};
 }
 
+/// EEPROM is locked under torque: refused before the first write, not in the middle of several.
+Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments)
+{
+    const Field *torque = device.table()->find(u"Torque Enable");
+    const auto locked = [](const Assignment &assignment) {
+        return assignment.field && assignment.field->needsTorqueOff();
+    };
+    if (!torque || std::ranges::none_of(assignments, locked))
+        return {};
+    const auto present = device.read(*torque);
+    if (!present)
+        return tl::unexpected(present.error());
+    bool on = *present != 0;
+    for (const Assignment &assignment : assignments) {
+        if (assignment.field == torque)
+            on = assignment.raw != 0;
+        else if (on && locked(assignment)) {
+            return failure(ErrorKind::InvalidArgument,
+                           QStringLiteral("%1: %2 is in the EEPROM area, which is locked while torque is on; write "
+                                          "torque_enable=off first. Nothing was written")
+                               .arg(device.name(), assignment.field->name));
+        }
+    }
+    return {};
+}
+
 } // namespace
 
 ExitCode writeCommand(const Work &work)
@@ -117,6 +145,8 @@ ExitCode writeCommand(const Work &work)
             return work.output.refuse(assignment.error()); // nothing has been written
         assignments.push_back(std::move(*assignment));
     }
+    if (const auto free = checkTorque(device, assignments); !free)
+        return work.output.fail(free.error());
     device.forget();
     for (const Assignment &assignment : assignments) {
         if (const auto done = writeOne(work.output, device, assignment); !done)

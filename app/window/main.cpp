@@ -10,6 +10,7 @@ int main(int argc, char **argv)
     QApplication application(argc, argv);
     dynascope::setUpApplication(application);
     const dynascope::WindowOptions options = dynascope::parseOptions(application);
+    const dynascope::OwnSettings settings(options); // before anything reads them
     dynascope::Workshop workshop(application, options);
     return dynascope::runWindow(application, workshop, options);
 }

@@ -42,7 +42,14 @@ WindowOptions parseOptions(const QApplication &application)
                                 QStringLiteral("FOLDER"));
     pictures.setFlags(QCommandLineOption::HiddenFromHelp);
     parser.addOptions({port, baud, picture, pictures});
-    parser.process(application);
+    if (!parser.parse(application.arguments())) {
+        std::fprintf(stderr, "dynascope: %s\n", qPrintable(parser.errorText()));
+        std::exit(2);
+    }
+    if (parser.isSet(QStringLiteral("help")))
+        parser.showHelp(0);
+    if (parser.isSet(QStringLiteral("version")))
+        parser.showVersion();
 
     WindowOptions options;
     options.port = parser.value(port);

@@ -20,7 +20,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr int SimulatedBaud = 1000000;
 constexpr std::size_t DemoServos = 7;     ///< six of the arm, one fresh
 constexpr qint64 LongestScan = 15000;     ///< ms; then the picture is taken of what there is
 constexpr auto PlotTime = 8s;             ///< of movement on the plots
@@ -46,10 +45,11 @@ private:
 
     void waitForDevices()
     {
-        const bool allThere = m_workshop.session().devices().size() >= DemoServos && !m_workshop.scanner().isRunning();
+        const bool allThere = m_workshop.session().devices().size() >= DemoServos;
         if (!allThere && m_elapsed.elapsed() < LongestScan)
             return;
         m_timer.stop();
+        m_workshop.scanner().cancel();
         showSomething();
         QTimer::singleShot(PlotTime, this, &PictureTaker::next);
     }
@@ -103,14 +103,16 @@ private:
     {
         if (m_workshop.window().grab().save(file, "PNG"))
             std::printf("%s\n", qPrintable(file));
-        else
+        else {
             std::fprintf(stderr, "dynascope: %s could not be written\n", qPrintable(file));
+            m_failed = true;
+        }
     }
 
     void next()
     {
         if (m_steps.empty()) {
-            QCoreApplication::quit();
+            QCoreApplication::exit(m_failed ? 1 : 0);
             return;
         }
         const Step step = std::move(m_steps.front());
@@ -123,31 +125,30 @@ private:
     QTimer m_timer;
     QElapsedTimer m_elapsed;
     std::deque<Step> m_steps;
+    bool m_failed = false;
 };
 
 } // namespace
 
+OwnSettings::OwnSettings(const WindowOptions &options)
+{
+    if (options.picture.isEmpty() && options.pictureDirectory.isEmpty())
+        return;
+    m_folder = std::make_unique<QTemporaryDir>();
+    QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, m_folder->path());
+}
+
+OwnSettings::~OwnSettings() = default;
+
 int runWindow(QApplication &application, Workshop &workshop, const WindowOptions &options)
 {
     const bool picture = !options.picture.isEmpty() || !options.pictureDirectory.isEmpty();
-    QString port = options.port;
-    int baud = options.baudRate;
-    if (picture)
-        port = SimulatedPortName;
-    const QSettings settings;
-    if (port.isEmpty()) {
-        port = settings.value(QStringLiteral("connection/port")).toString();
-        if (baud == 0)
-            baud = settings.value(QStringLiteral("connection/baud")).toInt();
-    }
-    if (baud == 0)
-        baud = port == SimulatedPortName ? SimulatedBaud : 57600;
+    const bool simulated = !options.pictureDirectory.isEmpty() || (picture && options.port.isEmpty());
 
     workshop.window().show();
     if (picture)
         workshop.window().resize(1440, 900);
-    if (!port.isEmpty())
-        workshop.window().connectTo(port, baud);
+    workshop.window().connectTo(simulated ? QString(SimulatedPortName) : options.port, options.baudRate);
     std::unique_ptr<PictureTaker> taker;
     if (picture)
         taker = std::make_unique<PictureTaker>(workshop, options);

@@ -48,6 +48,7 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
         Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines});
+    m_window->setScheme(storedScheme());
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
                      [this](ColorScheme scheme) { applyScheme(scheme); });
     QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {

@@ -87,8 +87,10 @@ void BusThread::setStopTargets(std::vector<StopTarget> targets)
 void BusThread::stop()
 {
     m_stopped = m_stopPending = true;
+    // Emptied first: once the flag is up the worker may be done with it before we get on, and must find nothing to run.
+    const auto waiting = m_worker->queue().takeAll();
     m_worker->requestStop();
-    for (const QueuedJob &job : m_worker->queue().takeAll())
+    for (const QueuedJob &job : waiting)
         m_worker->refuse(job, messages::cancelled());
     if (m_state == State::Lost || m_state == State::Closed)
         m_outbox->deliverAlways([this] { failStop(); });

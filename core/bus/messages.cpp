@@ -140,6 +140,11 @@ Error portNotFound(const QString &port)
         QStringLiteral("there is no port %1: is the adapter plugged in, and the name right?").arg(port)};
 }
 
+Error portEmpty(const QString &port)
+{
+    return {ErrorKind::PortNotFound, QStringLiteral("%1 exists, but there is no device behind it").arg(port)};
+}
+
 Error portForbidden(const QString &port)
 {
     return {ErrorKind::PortForbidden,

@@ -27,6 +27,7 @@ Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack);
 Error packetTooLong(std::size_t bytes, std::size_t limit);
 
 Error portNotFound(const QString &port);
+Error portEmpty(const QString &port); ///< the name exists, the hardware doesn't
 Error portForbidden(const QString &port);
 Error portBusy(const QString &port, const QString &holder); ///< `holder`: who has it, as far as known
 Error portNotSerial(const QString &port);

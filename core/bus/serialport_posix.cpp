@@ -54,9 +54,9 @@ Error openError(const QString &name, const QString &path, int number)
 {
     switch (number) {
     case ENOENT:
-    case ENXIO:
-    case ENODEV:
     case ENOTDIR: return messages::portNotFound(name);
+    case ENXIO:
+    case ENODEV: return messages::portEmpty(name);
     case EACCES:
     case EPERM: return messages::portForbidden(name);
     case EBUSY: return messages::portBusy(name, holderOf(path));

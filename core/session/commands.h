@@ -61,6 +61,7 @@ private:
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
     void awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done);
     void moved(DeviceKey key, const Found &found);
+    void lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old);
 
     Session &m_session;
     bool m_stopped = false;

@@ -80,7 +80,14 @@ void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts
                 } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
                     if (present)
                         present->setState(Device::State::Silent);
-                    done(tl::unexpected(found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error()));
+                    Error error = found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error();
+                    if (error.kind == ErrorKind::NothingReceived) {
+                        error.text = tr("%1 does not answer at ID %2, %3 bps; scan to find it")
+                                         .arg(place.name)
+                                         .arg(place.id)
+                                         .arg(place.baudRate);
+                    }
+                    done(tl::unexpected(std::move(error)));
                 } else {
                     awaitReturn(key, place, attempts - 1, done);
                 }
@@ -92,6 +99,24 @@ void Commands::moved(DeviceKey key, const Found &found)
 {
     if (Device *device = m_session.device(key))
         device->line()->moveDevice(*device, found);
+}
+
+/// STOP came in the middle of a change: nobody knows yet whether the device took it.
+void Commands::lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old)
+{
+    Device *device = m_session.device(key);
+    if (!device)
+        return;
+    device->line()->bus().run<Found>(
+        Priority::Click, this,
+        [changed, old](JobContext &context) {
+            auto found = look(context, changed);
+            return found && found->modelNumber == old.modelNumber ? found : look(context, old);
+        },
+        [this, key](const Result<Found> &found) {
+            if (found)
+                moved(key, *found);
+        });
 }
 
 void Commands::factoryReset(Device &device, ResetOption option, Done done)
@@ -155,8 +180,13 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
     auto report = reporting(device, tr("%1 now has ID %2").arg(device.displayName()).arg(newId), std::move(done));
     device.line()->bus().run<Found>(
         Priority::Click, this,
-        [plan = std::move(plan)](JobContext &context) { return dynascope::changeId(context, plan); },
-        [this, key = device.key(), report](const Result<Found> &found) {
+        [plan](JobContext &context) { return dynascope::changeId(context, plan); },
+        [this, key = device.key(), old = plan.place, newId = plan.newId, report](const Result<Found> &found) {
+            if (!found && found.error().kind == ErrorKind::Stopped) {
+                DevicePlace changed = old;
+                changed.id = newId;
+                lookAgain(key, changed, old);
+            }
             if (!found)
                 return report(tl::unexpected(found.error()));
             moved(key, *found);
@@ -182,8 +212,13 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     auto report = reporting(device, tr("%1 now works at %2 bps").arg(device.displayName()).arg(newBaud), std::move(done));
     device.line()->bus().run<Found>(
         Priority::Click, this,
-        [plan = std::move(plan)](JobContext &context) { return dynascope::changeBaud(context, plan); },
-        [this, key = device.key(), report](const Result<Found> &found) {
+        [plan](JobContext &context) { return dynascope::changeBaud(context, plan); },
+        [this, key = device.key(), old = plan.place, newBaud, report](const Result<Found> &found) {
+            if (!found && found.error().kind == ErrorKind::Stopped) {
+                DevicePlace changed = old;
+                changed.baudRate = newBaud;
+                lookAgain(key, changed, old);
+            }
             if (!found)
                 return report(tl::unexpected(found.error()));
             moved(key, *found);

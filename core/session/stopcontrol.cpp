@@ -13,17 +13,40 @@ StopControl::StopControl(Session &session, Commands &commands, QObject *parent)
     m_prepareTimer.setSingleShot(true);
     m_prepareTimer.setInterval(0);
     connect(&m_prepareTimer, &QTimer::timeout, this, &StopControl::prepare);
-    const auto soon = [this] { m_prepareTimer.start(); };
-    connect(&session, &Session::lineAdded, this, [this, soon](LineSession *line) {
-        connect(line, &LineSession::deviceChanged, this, soon);
-        connect(line, &LineSession::stateChanged, this, [this, soon, line] {
-            connect(&line->bus(), &BusThread::stopFinished, this, &StopControl::take, Qt::UniqueConnection);
-            soon();
-        });
-        connect(&line->bus(), &BusThread::stopFinished, this, &StopControl::take, Qt::UniqueConnection);
+    connect(&session, &Session::lineAdded, this, &StopControl::follow);
+    connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
+        m_threads.erase(line);
+        m_waiting.erase(line);
     });
-    connect(&session, &Session::deviceAdded, this, soon);
-    connect(&session, &Session::deviceAboutToBeRemoved, this, soon);
+    connect(&session, &Session::deviceAdded, this, [this](Device *device) {
+        m_prepareTimer.start();
+        if (m_active)
+            turnOff(*device);
+    });
+    connect(&session, &Session::deviceAboutToBeRemoved, this, [this] { m_prepareTimer.start(); });
+    for (const auto &line : session.lines())
+        follow(line.get());
+}
+
+void StopControl::follow(LineSession *line)
+{
+    connect(line, &LineSession::deviceChanged, this, [this] { m_prepareTimer.start(); });
+    connect(line, &LineSession::stateChanged, this, [this, line] { adopt(*line); });
+    adopt(*line);
+}
+
+void StopControl::adopt(LineSession &line)
+{
+    m_prepareTimer.start();
+    const BusThread *&known = m_threads[&line];
+    if (known != &line.bus()) {
+        known = &line.bus();
+        m_waiting.erase(&line); // its old thread reports no more
+        connect(&line.bus(), &BusThread::stopFinished, this,
+                [this, at = &line](const std::vector<StopOutcome> &outcomes) { take(at, outcomes); });
+    }
+    if (m_active && line.state() == BusThread::State::Open && !line.bus().isStopped())
+        stop(line); // plugged in again while STOP is held
 }
 
 void StopControl::prepare()
@@ -38,38 +61,66 @@ void StopControl::prepare()
     }
 }
 
+void StopControl::stop(LineSession &line)
+{
+    if (m_prepareTimer.isActive()) { // a device came or moved just now
+        m_prepareTimer.stop();
+        prepare();
+    }
+    m_waiting.insert(&line);
+    line.bus().stop();
+}
+
 void StopControl::press()
 {
     m_active = true;
-    m_outcomes.clear();
-    m_waiting = 0;
     m_commands.setStopped(true);
-    for (const auto &line : m_session.lines()) {
-        if (line->state() != BusThread::State::Open)
-            continue;
-        ++m_waiting;
-        line->bus().stop();
-    }
-    makeReport();
-    emit changed();
+    m_outcomes.clear();
+    m_waiting.clear();
+    for (const auto &line : m_session.lines())
+        stop(*line); // also one that is lost: it says of each device that it isn't confirmed
+    update();
 }
 
 void StopControl::release()
 {
     m_active = false;
-    m_outcomes.clear();
     m_commands.setStopped(false);
+    m_outcomes.clear();
+    m_waiting.clear();
     for (const auto &line : m_session.lines())
         line->bus().release();
-    makeReport();
-    emit changed();
+    update();
 }
 
-void StopControl::take(const std::vector<StopOutcome> &outcomes)
+/// A device that a scan finds while STOP is held.
+void StopControl::turnOff(Device &device)
 {
-    m_waiting = std::max(0, m_waiting - 1);
+    if (!device.table().find(u"Torque Enable"))
+        return update();
+    const DeviceKey key = device.key();
+    note({key, false, tr("Not asked yet")});
+    m_commands.setTorque({&device}, false, [this, key](const Result<void> &result) {
+        if (!m_active)
+            return;
+        note({key, result.has_value(), result ? QString() : result.error().text});
+        update();
+    });
+    update();
+}
+
+void StopControl::note(const StopOutcome &outcome)
+{
+    m_outcomes[outcome.device] = outcome;
+}
+
+void StopControl::take(LineSession *line, const std::vector<StopOutcome> &outcomes)
+{
+    m_waiting.erase(line);
+    if (!m_active)
+        return;
     for (const StopOutcome &outcome : outcomes) {
-        m_outcomes.push_back(outcome);
+        note(outcome);
         Device *device = m_session.device(outcome.device);
         if (!device || !outcome.off)
             continue;
@@ -79,34 +130,53 @@ void StopControl::take(const std::vector<StopOutcome> &outcomes)
         value.at = device->lastHeard();
         device->take(value);
     }
-    makeReport();
-    emit changed();
+    update();
+}
+
+QStringList StopControl::uncovered() const
+{
+    QStringList names;
+    for (const Device *device : m_session.devices()) {
+        if (!device->table().find(u"Torque Enable"))
+            names << device->displayName();
+    }
+    return names;
 }
 
 bool StopControl::isConfirmed() const
 {
-    return m_active && m_waiting == 0 && std::ranges::all_of(m_outcomes, &StopOutcome::off);
+    return m_active && m_waiting.empty() && uncovered().isEmpty()
+        && std::ranges::all_of(m_outcomes, [](const auto &entry) { return entry.second.off; });
 }
 
-void StopControl::makeReport()
+void StopControl::update()
 {
     m_report.clear();
-    if (!m_active)
-        return;
-    if (m_waiting > 0) {
+    if (m_active && !m_waiting.empty()) {
         m_report = tr("Turning torque off…");
-        return;
+    } else if (m_active) {
+        QStringList open;
+        int off = 0;
+        for (const auto &[key, outcome] : m_outcomes) {
+            const Device *device = m_session.device(key);
+            off += outcome.off ? 1 : 0;
+            if (!outcome.off && device)
+                open << device->displayName();
+        }
+        QStringList sentences;
+        if (off == 1)
+            sentences << tr("Torque is off on one device.");
+        else if (off > 1)
+            sentences << tr("Torque is off on %1 devices.").arg(off);
+        else
+            sentences << tr("No device confirmed that its torque is off.");
+        if (!open.isEmpty())
+            sentences << tr("Not confirmed: %1.").arg(open.join(QStringLiteral(", ")));
+        if (const QStringList names = uncovered(); !names.isEmpty())
+            sentences << tr("Not covered, since their model is unknown: %1.").arg(names.join(QStringLiteral(", ")));
+        m_report = sentences.join(QLatin1Char(' '));
     }
-    QStringList open;
-    for (const StopOutcome &outcome : m_outcomes) {
-        const Device *device = m_session.device(outcome.device);
-        if (!outcome.off && device)
-            open << device->displayName();
-    }
-    const auto off = std::ranges::count_if(m_outcomes, &StopOutcome::off);
-    m_report = tr("Torque is off on %n device(s).", nullptr, static_cast<int>(off));
-    if (!open.isEmpty())
-        m_report += QLatin1Char(' ') + tr("Not confirmed: %1.").arg(open.join(QStringLiteral(", ")));
+    emit changed();
 }
 
 } // namespace dynascope

@@ -3,9 +3,12 @@
 
 #include "core/session/commands.h"
 
+#include <set>
+
 namespace dynascope {
 
-/// STOP for all lines: keeps each bus thread's torque-off packets up to date, presses and releases. GUI thread.
+/// STOP for all lines: keeps each bus thread's torque-off packets up to date, presses and releases. While it is held, a
+/// line that opens and a device that turns up are told as well. GUI thread.
 class StopControl : public QObject
 {
     Q_OBJECT
@@ -14,8 +17,9 @@ public:
     StopControl(Session &session, Commands &commands, QObject *parent = nullptr);
 
     bool isActive() const { return m_active; }
-    bool isConfirmed() const; ///< every device was read back as off
-    QString report() const { return m_report; } ///< one or two sentences: who is off, who is not confirmed
+    /// Every known device was read back as off. Never where a line is lost or a device has no known Torque Enable.
+    bool isConfirmed() const;
+    QString report() const { return m_report; } ///< one to three sentences: who is off, who is not confirmed
 
     void press();
     void release();
@@ -24,17 +28,24 @@ signals:
     void changed();
 
 private:
+    void follow(LineSession *line);
+    void adopt(LineSession &line); ///< its bus thread may be another one since reopen()
+    void stop(LineSession &line);
     void prepare(); ///< hands each bus thread its torque-off targets
-    void take(const std::vector<StopOutcome> &outcomes);
-    void makeReport();
+    void turnOff(Device &device);
+    void take(LineSession *line, const std::vector<StopOutcome> &outcomes);
+    void note(const StopOutcome &outcome);
+    QStringList uncovered() const; ///< devices of unknown models: nobody knows their Torque Enable
+    void update();
 
     Session &m_session;
     Commands &m_commands;
     QTimer m_prepareTimer;
     bool m_active = false;
-    int m_waiting = 0; ///< lines that have not reported yet
+    std::map<LineSession *, const BusThread *> m_threads; ///< whose outcomes are listened to
+    std::set<LineSession *> m_waiting;                    ///< have not reported yet
+    std::map<DeviceKey, StopOutcome> m_outcomes;
     QString m_report;
-    std::vector<StopOutcome> m_outcomes;
 };
 
 } // namespace dynascope

@@ -209,6 +209,37 @@ private slots:
         QVERIFY(run([&](const Commands::Done &done) { m_commands->setTorque({devices.front()}, true, done); }));
     }
 
+    void stopOnALostLineConfirmsNothingAndCatchesUp()
+    {
+        const QString link = m_directory.filePath(QStringLiteral("stopped-bus"));
+        oneServo(link);
+        m_server.reset();
+        QTRY_COMPARE_WITH_TIMEOUT(m_line->state(), BusThread::State::Lost, 5000);
+        m_stop->press();
+        QTRY_VERIFY(m_stop->report().contains(QStringLiteral("Not confirmed: XM430-W350 #1")));
+        QVERIFY(!m_stop->isConfirmed());
+        startServer(QStringLiteral("XM430-W350@57600:1"), link);
+        m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->write(u"Torque Enable", 1); });
+        m_line->reopen(); // with STOP still held
+        QTRY_VERIFY_WITH_TIMEOUT(m_stop->isConfirmed(), 5000);
+        std::int64_t torque = 1;
+        m_server->call([&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
+        QCOMPARE(torque, 0);
+    }
+
+    void aDeviceFoundUnderStopIsTurnedOff()
+    {
+        serve(QStringLiteral("XM430-W350@57600:1"));
+        m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->write(u"Torque Enable", 1); });
+        m_stop->press();
+        QTRY_VERIFY(m_stop->isConfirmed());
+        scan({57600}, 0, 3);
+        QTRY_VERIFY_WITH_TIMEOUT(m_stop->isConfirmed(), 5000);
+        std::int64_t torque = 1;
+        m_server->call([&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
+        QCOMPARE(torque, 0);
+    }
+
     void anUnpluggedPortIsSaidAndTakenUpAgain()
     {
         const QString link = m_directory.filePath(QStringLiteral("bus"));

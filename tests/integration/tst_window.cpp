@@ -200,7 +200,8 @@ private slots:
         QTest::mouseClick(button, Qt::LeftButton);
         QTRY_VERIFY(m_workshop->stop().isConfirmed());
         QTRY_VERIFY(!device.isTorqueOn());
-        QTRY_VERIFY(!window().findChild<QAction *>(QStringLiteral("torqueOnAction"))->isEnabled());
+        trigger("torqueOn"); // refused, and said
+        QTRY_VERIFY2(messageText().contains(QStringLiteral("STOP is held")), qPrintable(messageText()));
         QCOMPARE(truth(1, u"Torque Enable"), 0);
         QTest::mouseClick(button, Qt::LeftButton); // releases
         QVERIFY(!m_workshop->stop().isActive());
@@ -218,6 +219,8 @@ private slots:
         QCOMPARE(devices().size(), std::size_t(3)); // nothing is lost on screen
         plugIn();
         QTRY_COMPARE_WITH_TIMEOUT(m_workshop->session().lines().front()->state(), BusThread::State::Open, 10000);
+        const int position = device.table().indexOf(u"Present Position");
+        QTRY_COMPARE_WITH_TIMEOUT(device.value(position).state, FieldState::Fresh, 5000);
     }
 
 private:
