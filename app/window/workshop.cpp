@@ -52,7 +52,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
                      [this](ColorScheme scheme) { applyScheme(scheme); });
     QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {
-        if (sim::Demo *demo = m_lines.demo())
+        sim::Demo *demo = m_lines.demo();
+        if (demo && !m_stop.isActive())
             demo->resume();
     });
     Q_UNUSED(options)

@@ -113,6 +113,7 @@ Result<void> Poller::collectDue(Cycle &cycle)
         PollValue value;
         value.device = span.device;
         value.address = span.span.address;
+        value.length = span.span.length;
         value.at = m_bus.line().now();
         if (isSleeping(span.span.id))
             value.error = {ErrorKind::NothingReceived, QStringLiteral("device %1 does not answer").arg(span.span.id)};

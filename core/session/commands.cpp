@@ -91,7 +91,10 @@ Commands::Done Commands::reporting(Device &device, const QString &success, Done 
 Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const
 {
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
-    if (m_stopped && (isGoal(field) || (field.name == QLatin1String("Torque Enable") && raw != 0)))
+    // Indirect Data may point at a goal or at Torque Enable.
+    const bool mayMove = isGoal(field) || field.name.startsWith(QLatin1String("Indirect Data"))
+        || (field.name == QLatin1String("Torque Enable") && raw != 0);
+    if (m_stopped && mayMove)
         return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
     const QString lock = device.lockReason(fieldIndex);
     if (!lock.isEmpty())
@@ -150,8 +153,11 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vect
     }
     if (!next)
         return;
-    if (!device)
-        return refuse(nullptr, {ErrorKind::Cancelled, tr("The device is gone")}, next->done);
+    const bool ended = !values
+        && (values.error().kind == ErrorKind::Cancelled || values.error().kind == ErrorKind::Stopped
+            || values.error().kind == ErrorKind::PortLost);
+    if (!device || ended) // what waited behind it must not go out after a STOP
+        return refuse(nullptr, {ErrorKind::Cancelled, tr("The write before it was cancelled")}, next->done);
     writeField(*device, fieldIndex, next->raw, std::move(next->done));
 }
 
@@ -165,6 +171,7 @@ void Commands::readAll(Device &device, Done done)
             if (!values)
                 return refuse(present, values.error(), done);
             if (present) {
+                present->clearFailures();
                 for (const PollValue &value : *values)
                     present->take(value);
             }

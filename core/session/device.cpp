@@ -81,7 +81,7 @@ void Device::setState(State state)
     if (m_state == state)
         return;
     m_state = state;
-    if (state == State::Silent || state == State::Rebooting)
+    if (state != State::Present) // not polled: what is shown is from before
         setAllStale();
     emit attributesChanged();
 }
@@ -111,13 +111,18 @@ void Device::take(const PollValue &value)
     for (; field != fields.end() && field->end() <= end; ++field) {
         const auto index = static_cast<int>(field - fields.begin());
         FieldValue &now = m_values[static_cast<std::size_t>(index)];
+        if (now.raw && value.at < now.at)
+            continue; // overtaken: a batch that was polled before a read-back
         const std::int64_t raw = rawFromBytes(*field, bytes.subspan(static_cast<std::size_t>(field->address - begin)));
-        const FieldState state = now.state == FieldState::Pending ? FieldState::Pending : FieldState::Fresh;
+        // A failed write stays to be seen until the value moves or somebody tries again.
+        const bool keeps = now.state == FieldState::Pending || (now.state == FieldState::Failed && now.raw == raw);
+        const FieldState state = keeps ? now.state : FieldState::Fresh;
         const bool changed = now.raw != raw || now.state != state;
         now.raw = raw;
         now.at = value.at;
         now.state = state;
-        now.error.clear();
+        if (!keeps)
+            now.error.clear();
         if (!changed)
             continue;
         first = first < 0 ? index : first;
@@ -141,7 +146,8 @@ void Device::clearPending(int fieldIndex)
 {
     FieldValue &value = m_values[static_cast<std::size_t>(fieldIndex)];
     value.pending.reset();
-    if (value.state == FieldState::Pending)
+    value.error.clear();
+    if (value.state == FieldState::Pending || value.state == FieldState::Failed)
         value.state = value.raw ? FieldState::Fresh : FieldState::Unknown;
     emit fieldsChanged(fieldIndex, fieldIndex);
 }
@@ -153,6 +159,14 @@ void Device::setFailed(int fieldIndex, const QString &error)
     value.state = FieldState::Failed;
     value.error = error;
     emit fieldsChanged(fieldIndex, fieldIndex);
+}
+
+void Device::clearFailures()
+{
+    for (int i = 0; i < static_cast<int>(m_values.size()); ++i) {
+        if (value(i).state == FieldState::Failed)
+            clearPending(i);
+    }
 }
 
 void Device::setAllStale()

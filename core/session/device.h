@@ -78,10 +78,12 @@ public:
     void setState(State state);
     void setAlert(bool alert);
     void setHeard(LineTime at);
-    void take(const PollValue &value);           ///< bytes that were read; a pending field stays pending
+    void take(const PollValue &value);           ///< bytes that were read; a pending field stays pending,
+                                                 ///< a failed one failed until its value moves; older news are dropped
     void setPending(int fieldIndex, std::int64_t raw);
     void clearPending(int fieldIndex);           ///< the write is over; take() what was read back
     void setFailed(int fieldIndex, const QString &error);
+    void clearFailures();                        ///< somebody asked for everything anew
     void setAllStale();
     /// @}
 

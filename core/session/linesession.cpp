@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr int SilentAfter = 3; ///< poll answers missing in a row before a device is called silent
 constexpr auto MeasureInterval = 1s;
+constexpr auto FrameInterval = 16ms;
 
 LineTime monotonicNow()
 {
@@ -40,19 +41,39 @@ LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate
 {
     connect(&m_rateTimer, &QTimer::timeout, this, &LineSession::measureRates);
     m_rateTimer.start(MeasureInterval);
+    // The screen needs them once a frame, however fast they come.
+    m_frameTimer.setSingleShot(true);
+    m_frameTimer.setInterval(FrameInterval);
+    connect(&m_frameTimer, &QTimer::timeout, this, &LineSession::takeBatches);
     startThread(name, baudRate);
 }
 
-LineSession::~LineSession() = default;
+LineSession::~LineSession()
+{
+    closeThread();
+}
+
+/// Everything that was asked of the thread gets its answer, even if that is Cancelled.
+void LineSession::closeThread()
+{
+    if (!m_thread)
+        return;
+    m_thread->disconnect(this);
+    m_thread->close();
+}
 
 void LineSession::startThread(const QString &name, int baudRate)
 {
+    closeThread();
     m_thread.reset();
     m_thread = std::make_unique<BusThread>(m_factory, name, baudRate);
     m_sinceMeasured.start();
     m_busyAtMeasure = {};
     connect(m_thread.get(), &BusThread::stateChanged, this, &LineSession::onThreadState);
-    connect(m_thread.get(), &BusThread::batchesReady, this, &LineSession::takeBatches);
+    connect(m_thread.get(), &BusThread::batchesReady, this, [this] {
+        if (!m_frameTimer.isActive())
+            m_frameTimer.start();
+    });
 }
 
 void LineSession::reopen()
@@ -89,6 +110,13 @@ Device *LineSession::deviceAt(std::uint8_t id, int baudRate) const
 Device &LineSession::heard(const Found &found)
 {
     Device *known = deviceAt(found.id, found.baudRate);
+    if (known && found.modelNumber == 0 && !found.doubt.isEmpty()) {
+        Found doubted = found; // unreadable for once: no reason to forget whom we know there
+        doubted.modelNumber = static_cast<std::uint16_t>(known->modelNumber());
+        doubted.firmware = static_cast<std::uint8_t>(known->firmware());
+        known->setFound(doubted);
+        return *known;
+    }
     if (known && (known->modelNumber() != found.modelNumber || known->firmware() != found.firmware)) {
         forget(known->key()); // another servo stands there now
         known = nullptr;

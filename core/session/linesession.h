@@ -57,6 +57,7 @@ signals:
 
 private:
     void startThread(const QString &name, int baudRate);
+    void closeThread();
     void onThreadState();
     void takeBatches();
     void take(const Batch &batch);
@@ -71,6 +72,7 @@ private:
     std::vector<std::unique_ptr<Device>> m_devices;
     std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row
     QTimer m_rateTimer;
+    QTimer m_frameTimer;
     QElapsedTimer m_sinceMeasured;
     int m_fullRateCycles = 0;
     LineTime m_busyAtMeasure{};

@@ -24,7 +24,12 @@ Monitor::Monitor(Session &session, QObject *parent)
 
 void Monitor::follow(LineSession *line)
 {
-    connect(line, &LineSession::stateChanged, this, &Monitor::replanSoon);
+    connect(line, &LineSession::stateChanged, this, [this, line] {
+        // The next bus thread may stand at the same address: what was sent to the one before doesn't count.
+        if (line->state() != BusThread::State::Open)
+            m_sentPlans.erase(&line->bus());
+        replanSoon();
+    });
     connect(line, &LineSession::deviceChanged, this, &Monitor::replanSoon);
     connect(line, &LineSession::batchTaken, this, &Monitor::record);
     replanSoon();
@@ -43,8 +48,16 @@ void Monitor::watch(const Watch &watch)
 {
     if (!m_watches.insert(watch).second)
         return;
+    markGap(watch); // where it was watched before: nobody knows what was in between
     replanSoon();
     emit watchesChanged();
+}
+
+void Monitor::markGap(const Watch &watch)
+{
+    const auto at = m_histories.find(watch);
+    if (at != m_histories.end() && !at->second.isEmpty())
+        at->second.appendGap(at->second.last().at);
 }
 
 void Monitor::unwatch(const Watch &watch)
@@ -97,8 +110,11 @@ void Monitor::replan()
                 break;
             DeviceWatches watches{device.get(), {}, std::ranges::find(m_selected, device->key()) != m_selected.end()};
             for (auto at = m_watches.lower_bound({device->key(), 0});
-                 at != m_watches.end() && at->device == device->key(); ++at)
+                 at != m_watches.end() && at->device == device->key(); ++at) {
                 watches.fields.push_back(at->field);
+                if (line->state() != BusThread::State::Open || device->state() != Device::State::Present)
+                    markGap(*at);
+            }
             devices.push_back(std::move(watches));
         }
         PollPlan plan = planWatches(devices);

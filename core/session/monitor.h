@@ -50,6 +50,7 @@ private:
     void replanSoon();
     void replan();
     void record(const Batch &batch);
+    void markGap(const Watch &watch);
 
     Session &m_session;
     std::set<Watch> m_watches;

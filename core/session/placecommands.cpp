@@ -49,6 +49,9 @@ void Commands::ping(Device &device, Done done)
 
 void Commands::reboot(Device &device, Done done)
 {
+    // Startup Configuration may turn torque on when it comes back.
+    if (m_stopped)
+        return refuse(&device, {ErrorKind::Stopped, tr("STOP is held: release it before anything reboots")}, done);
     const DevicePlace place = placeOf(device);
     auto report = reporting(device, tr("%1 has rebooted; its RAM is back to defaults").arg(place.name), std::move(done));
     auto sent = [this, key = device.key(), place, report](const Result<void> &result) {
@@ -76,6 +79,8 @@ void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts
                 Device *present = m_session.device(key);
                 if (found && present) {
                     moved(key, *found);
+                    if (m_stopped) // pressed while it booted
+                        setTorque({present}, false);
                     readAll(*present, done);
                 } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
                     if (present)

@@ -100,8 +100,24 @@ private slots:
         QCOMPARE(device.value(3).state, FieldState::Failed);
         QCOMPARE(device.value(3).raw, 10);
         QCOMPARE(device.value(3).error, QStringLiteral("refused"));
-        device.take(bytesAt(116, {10, 0, 0, 0}));
+        device.take(bytesAt(116, {10, 0, 0, 0})); // the next poll must not wipe it away unseen
+        QCOMPARE(device.value(3).state, FieldState::Failed);
+        QCOMPARE(device.value(3).error, QStringLiteral("refused"));
+        device.take(bytesAt(116, {11, 0, 0, 0}));
         QCOMPARE(device.value(3).state, FieldState::Fresh);
+        device.setFailed(3, QStringLiteral("refused"));
+        device.clearFailures();
+        QCOMPARE(device.value(3).state, FieldState::Fresh);
+    }
+
+    void oldNewsAreDropped()
+    {
+        Device device(1, nullptr, smallTable(), Servo);
+        device.take(bytesAt(64, {1}, 5)); // a read-back
+        device.take(bytesAt(64, {0}, 4)); // polled before it, delivered after it
+        QCOMPARE(device.raw(u"Torque Enable"), 1);
+        device.take(bytesAt(64, {0}, 6));
+        QCOMPARE(device.raw(u"Torque Enable"), 0);
     }
 
     void silenceMakesEverythingStale()

@@ -249,8 +249,11 @@ private slots:
         QVERIFY(!m_line->bus().error().text.isEmpty());
         QVERIFY(!run([&](const Commands::Done &done) { m_commands->ping(device, done); }));
         startServer(QStringLiteral("XM430-W350@57600:1"), link);
+        m_monitor->select({&device});
         m_line->reopen();
         QTRY_COMPARE(m_line->state(), BusThread::State::Open);
+        const int position = device.table().indexOf(u"Present Position");
+        QTRY_COMPARE(device.value(position).state, FieldState::Fresh); // polled again
         QVERIFY(run([&](const Commands::Done &done) { m_commands->ping(device, done); }));
         QCOMPARE(device.state(), Device::State::Present);
     }

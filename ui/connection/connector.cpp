@@ -81,6 +81,8 @@ void Connector::disconnectFrom(LineSession &line)
 
 void Connector::reconnect(LineSession &line)
 {
+    if (line.state() != BusThread::State::Lost && line.state() != BusThread::State::Closed)
+        return; // it is back already
     line.reopen();
 }
 

@@ -38,7 +38,8 @@ DevicePanel::DevicePanel(const Workbench &workbench, QWidget *parent)
     const auto updateActions = [this] { m_actions->update(); };
     connect(m_model, &QAbstractItemModel::dataChanged, m_actions, updateActions);
     connect(m_model, &QAbstractItemModel::rowsInserted, this, &DevicePanel::updateEmptyView);
-    connect(m_model, &QAbstractItemModel::rowsRemoved, this, &DevicePanel::updateEmptyView);
+    connect(m_model, &QAbstractItemModel::rowsRemoved, this, &DevicePanel::updateEmptyView,
+            Qt::QueuedConnection); // once the session has let go of it, too
     connect(m_model, &QAbstractItemModel::dataChanged, this, &DevicePanel::updateEmptyView);
     connect(&workbench.scanner, &Scanner::progressChanged, this, &DevicePanel::updateEmptyView);
     connect(&workbench.scanner, &Scanner::finished, this, &DevicePanel::updateEmptyView);

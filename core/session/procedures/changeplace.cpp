@@ -172,8 +172,18 @@ Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
     const JobContext::Exclusive exclusive(context);
     const auto sent = factoryReset(bus, plan.place.id, plan.option);
     // Its status may be lost in the reboot that follows; the look afterwards decides.
-    if (!sent && (sent.error().kind == ErrorKind::Refused || sent.error().kind == ErrorKind::PortLost))
+    const auto lost = [](ErrorKind kind) {
+        return kind == ErrorKind::NothingReceived || kind == ErrorKind::CutOff || kind == ErrorKind::NoHeader
+            || kind == ErrorKind::DamagedCrc;
+    };
+    if (!sent && !lost(sent.error().kind))
         return sent;
+    if (!sent && !moves) {
+        return failure(ErrorKind::NotConfirmed,
+                       tr("%1 did not confirm the reset, and would stand at the same place either way; read its registers to "
+                          "see whether it took it")
+                           .arg(plan.place.name));
+    }
     return {};
 }
 
