@@ -14,6 +14,7 @@
 #include "ui/devices/devicepanel.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
+#include "ui/window/firstread.h"
 #include "ui/window/layoutmanager.h"
 #include "ui/window/menus.h"
 #include "ui/window/outcomes.h"
@@ -56,6 +57,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     , m_plots(new PlotArea(workbench, this))
     , m_status(new StatusView(this))
     , m_guard(new TorqueGuard(workbench, this))
+    , m_firstRead(new FirstRead(workbench, this))
 {
     setObjectName(QStringLiteral("mainWindow"));
     setWindowTitle(tr("Dynascope"));
@@ -154,10 +156,8 @@ void MainWindow::connectDevices()
     connect(m_table, &TablePanel::message, this, inform);
     connect(m_plots, &PlotArea::message, this, inform);
     connect(&m_workbench.session, &Session::deviceAdded, this, &MainWindow::countDevices);
-    connect(&m_workbench.session, &Session::deviceAboutToBeRemoved, this, [this](Device *device) {
-        m_asked.erase(device->key());
-        QMetaObject::invokeMethod(this, &MainWindow::countDevices, Qt::QueuedConnection);
-    });
+    connect(
+        &m_workbench.session, &Session::deviceAboutToBeRemoved, this, &MainWindow::countDevices, Qt::QueuedConnection);
 }
 
 void MainWindow::connectPlots()
@@ -218,19 +218,7 @@ void MainWindow::onSelection()
     });
     m_table->setDevices(devices);
     m_workbench.monitor.select(devices);
-    for (Device *device : devices)
-        readOnce(*device);
-}
-
-void MainWindow::readOnce(Device &device)
-{
-    if (!device.isKnownModel() || device.line()->state() != BusThread::State::Open
-        || !m_asked.insert(device.key()).second)
-        return;
-    m_workbench.commands.readAll(device, [here = QPointer<MainWindow>(this), key = device.key()](const Result<void> &result) {
-        if (here && !result)
-            here->m_asked.erase(key); // the next look at it asks again
-    });
+    m_firstRead->show(devices);
 }
 
 void MainWindow::countDevices()

@@ -7,8 +7,6 @@
 
 #include <QMainWindow>
 
-#include <set>
-
 class QSplitter;
 class QStackedWidget;
 
@@ -17,6 +15,7 @@ namespace dynascope {
 class ConnectionBar;
 class Connector;
 class DevicePanel;
+class FirstRead;
 class LayoutManager;
 class Menus;
 class MessageBar;
@@ -37,8 +36,8 @@ public:
     explicit MainWindow(const Workbench &workbench, QWidget *parent = nullptr);
     ~MainWindow() override;
 
-    /// Opens a line and scans it: the port of the command line or, where `port` is empty, the one from last time; without
-    /// either the welcome stays. `baudRate` 0: the one from last time.
+    /// Opens a line and scans it: the port of the command line or, where `port` is empty, the one from last time;
+    /// without either the welcome stays. `baudRate` 0: the one from last time.
     void connectTo(const QString &port, int baudRate);
 
     void setScheme(ColorScheme scheme); ///< which one the menu ticks; applied by who asked for it
@@ -57,7 +56,6 @@ private:
     void connectPlots();
     void onSelection();
     void onLines();
-    void readOnce(Device &device);
     void countDevices();
     void focusPane(int pane);
     void restoreParts();
@@ -79,7 +77,7 @@ private:
     LayoutManager *m_layout;
     Menus *m_menus;
     TorqueGuard *m_guard;
-    std::set<DeviceKey> m_asked; ///< whose registers have been asked for once
+    FirstRead *m_firstRead;
 };
 
 } // namespace dynascope

@@ -18,42 +18,41 @@ LineTime columnStart(LineTime from, LineTime to, std::size_t index, std::size_t 
 
 } // namespace
 
-void History::Extremes::include(const Extremes &other)
-{
-    minimum = std::min(minimum, other.minimum);
-    maximum = std::max(maximum, other.maximum);
-}
-
-/// Of the samples [from, to) of this chunk, at least one.
+/// Of the samples [from, to) of this chunk, at least one: what lies before and after whole blocks, finer at both ends.
 History::Extremes History::Chunk::extremes(std::size_t from, std::size_t to) const
 {
     if (from == 0 && to == ChunkSize)
         return all;
     Extremes result{raw[from], raw[from]};
-    while (from < to) {
-        if (from % CoarseSize == 0 && from + CoarseSize <= to) {
-            result.include(coarse[from / CoarseSize]);
-            from += CoarseSize;
-        } else if (from % FineSize == 0 && from + FineSize <= to) {
-            result.include(fine[from / FineSize]);
-            from += FineSize;
-        } else {
-            result.include({raw[from], raw[from]});
-            ++from;
-        }
+    const auto samples = [this, &result](std::size_t begin, std::size_t end) {
+        for (; begin < end; ++begin)
+            result.include({raw[begin], raw[begin]});
+    };
+    const auto blocks = [&result](const auto &of, std::size_t begin, std::size_t end) {
+        for (; begin < end; ++begin)
+            result.include(of[begin]);
+    };
+    const std::size_t fineBegin = (from + FineSize - 1) / FineSize;
+    const std::size_t fineEnd = to / FineSize;
+    if (fineBegin >= fineEnd) {
+        samples(from, to);
+        return result;
     }
+    samples(from, fineBegin * FineSize);
+    samples(fineEnd * FineSize, to);
+    const std::size_t coarseBegin = (fineBegin + Fan - 1) / Fan;
+    const std::size_t coarseEnd = fineEnd / Fan;
+    if (coarseBegin >= coarseEnd) {
+        blocks(fine, fineBegin, fineEnd);
+        return result;
+    }
+    blocks(fine, fineBegin, coarseBegin * Fan);
+    blocks(fine, coarseEnd * Fan, fineEnd);
+    blocks(coarse, coarseBegin, coarseEnd);
     return result;
 }
 
-History::History(std::size_t capacity)
-    : m_capacity(std::max<std::size_t>(capacity, 1))
-{
-}
-
-const History::Chunk &History::chunkOf(Position position) const
-{
-    return *m_chunks[static_cast<std::size_t>(position / ChunkSize - m_begin / ChunkSize)];
-}
+History::History(std::size_t capacity) : m_capacity(std::max<std::size_t>(capacity, 1)) { }
 
 void History::addChunk()
 {
@@ -96,6 +95,7 @@ void History::append(LineTime at, std::int32_t raw)
     if (m_begin % ChunkSize == 0) {
         m_spare = std::move(m_chunks.front());
         m_chunks.pop_front();
+        ++m_firstChunk;
     }
 }
 

@@ -12,8 +12,8 @@
 
 namespace dynascope {
 
-/// The raw values one field had, with a pyramid of minima and maxima so that any stretch can be drawn in as many columns
-/// as the screen has. Append-only; the oldest go when it is full. Any one thread.
+/// The raw values one field had, with a pyramid of minima and maxima so that any stretch can be drawn in as many
+/// columns as the screen has. Append-only; the oldest go when it is full. Any one thread.
 class History
 {
 public:
@@ -66,7 +66,11 @@ private:
 
     struct Extremes {
         std::int32_t minimum, maximum;
-        void include(const Extremes &other);
+        void include(const Extremes &other)
+        {
+            minimum = other.minimum < minimum ? other.minimum : minimum;
+            maximum = other.maximum > maximum ? other.maximum : maximum;
+        }
     };
     struct Chunk {
         std::array<LineTime, ChunkSize> at;
@@ -79,7 +83,10 @@ private:
         Extremes extremes(std::size_t from, std::size_t to) const;
     };
 
-    const Chunk &chunkOf(Position position) const;
+    const Chunk &chunkOf(Position position) const
+    {
+        return *m_chunks[static_cast<std::size_t>(position / ChunkSize - m_firstChunk)];
+    }
     LineTime timeOf(Position position) const { return chunkOf(position).at[position % ChunkSize]; }
     std::int32_t rawOf(Position position) const { return chunkOf(position).raw[position % ChunkSize]; }
     bool hasGap(Position position) const { return chunkOf(position).gaps[position % ChunkSize]; }
@@ -93,6 +100,7 @@ private:
     std::unique_ptr<Chunk> m_spare;              ///< the last one that was emptied, to be filled again
     Position m_begin = 0;
     Position m_end = 0;
+    Position m_firstChunk = 0; ///< m_begin / ChunkSize
     bool m_gapPending = false;
 };
 

@@ -81,6 +81,7 @@ void Scanner::start(LineSession &line, const ScanRange &range)
     cancel();
     m_line = &line;
     m_found = 0;
+    m_wasCancelled = false;
     m_progress = 0;
     m_currentBaud = range.bauds.empty() ? line.baudRate() : range.bauds.front();
     const int run = ++m_run;
@@ -108,6 +109,8 @@ void Scanner::start(LineSession &line, const ScanRange &range)
                 return;
             m_job = 0;
             m_progress = 1;
+            m_wasCancelled = !summary
+                && (summary.error().kind == ErrorKind::Cancelled || summary.error().kind == ErrorKind::Stopped);
             const QString message = summary ? summary->trouble.join(QStringLiteral(". ")) : summary.error().text;
             emit progressChanged();
             emit finished(m_found, message);

@@ -26,6 +26,7 @@ public:
     void start(LineSession &line, const ScanRange &range);
     void cancel();
     bool isRunning() const { return m_job != 0; }
+    bool wasCancelled() const { return m_wasCancelled; } ///< the last scan ended by cancel() or STOP
     double progress() const { return m_progress; } ///< 0..1
     int currentBaud() const { return m_currentBaud; }
     int found() const { return m_found; }
@@ -38,6 +39,7 @@ signals:
 private:
     QPointer<LineSession> m_line;
     JobId m_job = 0;
+    bool m_wasCancelled = false;
     int m_run = 0; ///< notes of an earlier scan are dropped by this
     double m_progress = 0;
     int m_currentBaud = 0;

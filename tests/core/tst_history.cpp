@@ -72,11 +72,7 @@ struct Pair {
     History history;
     Plain plain;
 
-    explicit Pair(std::size_t capacity)
-        : history(capacity)
-    {
-        plain.capacity = capacity;
-    }
+    explicit Pair(std::size_t capacity) : history(capacity) { plain.capacity = capacity; }
 
     void append(LineTime at, std::int32_t raw)
     {
@@ -99,9 +95,8 @@ void compareColumns(const Pair &pair, LineTime from, LineTime width, std::size_t
         const LineTime start = from + width * static_cast<int>(i);
         const History::Column expected = pair.plain.column(start, start + width);
         if (columns[i] != expected) {
-            qWarning("column %zu of %zu from %lld: %d..%d, not %d..%d", i, count,
-                     static_cast<long long>(from.count()), columns[i].minimum, columns[i].maximum, expected.minimum,
-                     expected.maximum);
+            qWarning("column %zu of %zu from %lld: %d..%d, not %d..%d", i, count, static_cast<long long>(from.count()),
+                columns[i].minimum, columns[i].maximum, expected.minimum, expected.maximum);
         }
         QVERIFY(columns[i] == expected);
     }

@@ -45,7 +45,8 @@ private slots:
         m_workshop = std::make_unique<Workshop>(*qApp, WindowOptions());
         window().resize(1400, 900);
         window().show();
-        QVERIFY(QTest::qWaitForWindowExposed(&window()));
+        window().activateWindow();
+        QVERIFY(QTest::qWaitForWindowActive(&window()));
     }
 
     void cleanup()
@@ -63,7 +64,7 @@ private slots:
         QTRY_COMPARE_WITH_TIMEOUT(devices().size(), std::size_t(3), 20000);
         auto *tree = child<QAbstractItemView>("deviceTree");
         QTRY_VERIFY(tree->isVisible());
-        QTRY_VERIFY(!m_workshop->scanner().isRunning());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_workshop->scanner().isRunning(), 20000);
         QCOMPARE(tree->model()->rowCount(), 1); // one line
         const QModelIndex line = tree->model()->index(0, 0);
         QCOMPARE(tree->model()->rowCount(line), 2); // two baud rates
@@ -105,7 +106,9 @@ private slots:
         QTRY_VERIFY(device.raw(u"Goal Position").has_value());
         const std::int64_t before = *device.raw(u"Goal Position");
         editField(device, u"Goal Position", QStringLiteral("99999"));
-        QTest::keyClick(QApplication::focusWidget(), Qt::Key_Escape); // leaves the editor; and presses STOP
+        QVERIFY(editor()); // still open: it says why
+        QTest::keyClick(editor(), Qt::Key_Escape); // leaves the editor, and presses STOP
+        QTRY_VERIFY(!editor());
         m_workshop->stop().release();
         QCOMPARE(truth(1, u"Goal Position"), before);
     }
@@ -120,7 +123,7 @@ private slots:
         QTest::mouseClick(child<QAbstractButton>("acceptButton"), Qt::LeftButton);
         QTRY_COMPARE_WITH_TIMEOUT(device.id(), 42, 5000);
         QCOMPARE(m_workshop->session().device(key), &device);
-        QTRY_VERIFY(messageText().contains(QStringLiteral("now has ID 42")));
+        QTRY_VERIFY2(messageText().contains(QStringLiteral("now has ID 42")), qPrintable(messageText()));
         QCOMPARE(truth(42, u"ID"), 42);
     }
 
@@ -167,7 +170,7 @@ private slots:
         QMenu menu;
         if (open == QLatin1String("editor")) {
             QVERIFY(openEditor(device, u"Goal Position"));
-            receiver = QApplication::focusWidget();
+            receiver = editor();
         } else if (open == QLatin1String("dialog")) {
             trigger("changeId");
             QTRY_VERIFY(child<QDialog>("changeIdDialog"));
@@ -197,9 +200,12 @@ private slots:
         QTest::mouseClick(button, Qt::LeftButton);
         QTRY_VERIFY(m_workshop->stop().isConfirmed());
         QTRY_VERIFY(!device.isTorqueOn());
-        trigger("torqueOn");
-        QTest::qWait(0);
+        QTRY_VERIFY(!window().findChild<QAction *>(QStringLiteral("torqueOnAction"))->isEnabled());
         QCOMPARE(truth(1, u"Torque Enable"), 0);
+        QTest::mouseClick(button, Qt::LeftButton); // releases
+        QVERIFY(!m_workshop->stop().isActive());
+        trigger("torqueOn");
+        QTRY_VERIFY(device.isTorqueOn());
     }
 
     void aPulledPlugIsSaidAndTakenUpAgain()
@@ -241,7 +247,8 @@ private:
     {
         window().connectTo(m_link, 57600);
         QTRY_COMPARE_WITH_TIMEOUT(devices().size(), std::size_t(3), 20000);
-        QTRY_VERIFY_WITH_TIMEOUT(!m_workshop->scanner().isRunning(), 20000);
+        m_workshop->scanner().cancel(); // all are found: no need to try the other rates
+        QTRY_VERIFY(!m_workshop->scanner().isRunning());
     }
 
     Device &selectFirst()
@@ -299,19 +306,30 @@ private:
         auto *view = child<QAbstractItemView>("tableView");
         view->setFocus();
         QTest::keyClick(view, Qt::Key_F2);
-        return QTest::qWaitFor([&] {
-            return QApplication::focusWidget() && QApplication::focusWidget() != view
-                && view->isAncestorOf(QApplication::focusWidget());
-        });
+        return QTest::qWaitFor([&] { return editor() != nullptr; });
+    }
+
+    QLineEdit *editor() { return child<QAbstractItemView>("tableView")->findChild<QLineEdit *>(QStringLiteral("valueEdit")); }
+
+    QString whereFocusIs()
+    {
+        const QWidget *focus = QApplication::focusWidget();
+        auto *view = child<QAbstractItemView>("tableView");
+        return QStringLiteral("focus in %1, current row %2, %3 rows, search %4")
+            .arg(focus ? QString::fromLatin1(focus->metaObject()->className()) + QLatin1Char(32) + focus->objectName() + QStringLiteral(" in ")
+                             + focus->window()->objectName()
+                       : QStringLiteral("nothing"),
+                 view->currentIndex().siblingAtColumn(0).data().toString())
+            .arg(view->model()->rowCount())
+            .arg(child<QLineEdit>("tableSearch")->text());
     }
 
     void editField(const Device &device, QStringView name, const QString &text)
     {
-        QVERIFY(openEditor(device, name));
-        QWidget *editor = QApplication::focusWidget();
-        QTest::keySequence(editor, QKeySequence::SelectAll);
-        QTest::keyClicks(editor, text);
-        QTest::keyClick(editor, Qt::Key_Return);
+        QVERIFY2(openEditor(device, name), qPrintable(whereFocusIs()));
+        editor()->selectAll();
+        QTest::keyClicks(editor(), text);
+        QTest::keyClick(editor(), Qt::Key_Return);
     }
 
     std::int64_t truth(int id, QStringView name)

@@ -14,8 +14,8 @@
 namespace dynascope::test {
 
 /// Opens "sim" and anything that begins with "/dev/": the same servos, made on the bus thread that will own them. Who
-/// waits for an answer waits in virtual time; the wall's comes on top, or an idle line would stand still. "/dev/forbidden" can't
-/// be opened; unplug() takes the wire away.
+/// waits for an answer waits in virtual time; the wall's comes on top, or an idle line would stand still.
+/// "/dev/forbidden" can't be opened; unplug() takes the wire away.
 class VirtualLines final : public LineFactory, public PortList
 {
 public:
@@ -49,10 +49,9 @@ private:
     class VirtualLine final : public Line
     {
     public:
-        VirtualLine(const Catalog &catalog, const QString &servos, QString name, int baudRate, const std::atomic<bool> &unplugged)
-            : m_bus(catalog)
-            , m_name(std::move(name))
-            , m_unplugged(unplugged)
+        VirtualLine(const Catalog &catalog, const QString &servos, QString name, int baudRate,
+            const std::atomic<bool> &unplugged)
+            : m_bus(catalog), m_name(std::move(name)), m_unplugged(unplugged)
         {
             const auto specs = sim::parseServoSpecs(servos, catalog);
             for (const sim::ServoSpec &spec : specs.value())

@@ -29,7 +29,8 @@ private slots:
         QSettings().clear();
         m_bench = std::make_unique<test::WorkbenchFixture>();
         m_connector = std::make_unique<Connector>(m_bench->workbench());
-        connect(m_connector.get(), &Connector::posted, this, [this](const Message &message) { m_said << message.text; });
+        connect(
+            m_connector.get(), &Connector::posted, this, [this](const Message &message) { m_said << message.text; });
         m_bar = std::make_unique<ConnectionBar>(m_bench->workbench(), *m_connector);
         m_bar->show();
         m_said.clear();

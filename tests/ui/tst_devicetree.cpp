@@ -120,8 +120,9 @@ private slots:
         m_line->heard(found(1, 57600));
         m_line->heard(found(2, 1000000));
         m_line->moveDevice(*m_line->deviceAt(1, 57600), found(1, 1000000));
-        QCOMPARE(picture(*m_model), QStringList({QStringLiteral("Simulated bus"), QStringLiteral(" 1 Mbps"),
-                                                 QStringLiteral("  XM430-W350 #1"), QStringLiteral("  XM430-W350 #2")}));
+        QCOMPARE(picture(*m_model),
+            QStringList({QStringLiteral("Simulated bus"), QStringLiteral(" 1 Mbps"), QStringLiteral("  XM430-W350 #1"),
+                QStringLiteral("  XM430-W350 #2")}));
         m_line->forget(m_line->deviceAt(1, 1000000)->key());
         m_line->forget(m_line->deviceAt(2, 1000000)->key());
         QCOMPARE(picture(*m_model), QStringList{QStringLiteral("Simulated bus")});

@@ -65,7 +65,8 @@ private slots:
             QVERIFY2(normal.pixels > 50, qPrintable(QString::number(normal.pixels)));
             QVERIFY(isNearly(normal.color, dynascope::palette(scheme).color(QPalette::ButtonText)));
             const Ink disabled = ink(icon(name).pixmap(QSize(80, 80), 1.0, QIcon::Disabled));
-            QVERIFY(isNearly(disabled.color, dynascope::palette(scheme).color(QPalette::Disabled, QPalette::ButtonText)));
+            QVERIFY(
+                isNearly(disabled.color, dynascope::palette(scheme).color(QPalette::Disabled, QPalette::ButtonText)));
         }
     }
 

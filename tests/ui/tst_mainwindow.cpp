@@ -110,11 +110,12 @@ private slots:
         m_bench->stop.press();
         QVERIFY(!bar->isHidden());
         QTRY_VERIFY(bar->text().contains(QStringLiteral("off on 3")));
-        QVERIFY(!find<QAction>("torqueOnAction")->isEnabled());
+        find<QAction>("torqueOnAction")->trigger(); // refused, and it says why
+        QTRY_VERIFY(find<MessageBar>("messageBar")->text().contains(QStringLiteral("STOP is held")));
+        QVERIFY(!selected()->isTorqueOn());
         QTest::mouseClick(bar->findChild<QPushButton *>(QStringLiteral("messageAction")), Qt::LeftButton);
         QVERIFY(!m_bench->stop.isActive());
         QVERIFY(bar->isHidden());
-        QVERIFY(find<QAction>("torqueOnAction")->isEnabled());
     }
 
     void asksOnceBeforeClosingOnTorque()
@@ -141,8 +142,9 @@ private slots:
         m_bench->commands.writeField(*device, device->table().indexOf(u"Torque Enable"), 1); // as the table does
         QTRY_VERIFY(device->isTorqueOn());
         m_window->close();
-        QTest::mouseClick(find<QMessageBox>("torqueBox")->findChild<QPushButton *>(QStringLiteral("turnTorqueOffButton")),
-                          Qt::LeftButton);
+        QTest::mouseClick(
+            find<QMessageBox>("torqueBox")->findChild<QPushButton *>(QStringLiteral("turnTorqueOffButton")),
+            Qt::LeftButton);
         QTRY_VERIFY(!m_window->isVisible());
         QVERIFY(!device->isTorqueOn());
     }
@@ -181,6 +183,23 @@ private slots:
         QCOMPARE(messages->kind(), MessageKind::Error);
         QVERIFY(find<DevicePanel>("devicePanel")->isVisible()); // the devices stay, greyed
         QVERIFY(!find<QAction>("torqueOnAction")->isEnabled());
+    }
+
+    void whatComesBackIsReadAgain()
+    {
+        connectNow();
+        Device *device = selected();
+        const int id = device->table().indexOf(u"ID"); // EEPROM: nobody polls it
+        QTRY_COMPARE(device->value(id).state, FieldState::Fresh);
+        m_bench->lines.unplug();
+        QTRY_COMPARE(device->value(id).state, FieldState::Stale);
+        m_bench->lines.unplug(false);
+        QTRY_COMPARE(device->value(id).state, FieldState::Fresh);
+
+        device->setState(Device::State::Silent);
+        QCOMPARE(device->value(id).state, FieldState::Stale);
+        device->setState(Device::State::Present);
+        QTRY_COMPARE(device->value(id).state, FieldState::Fresh);
     }
 
     void workAtThisBaud()
@@ -246,7 +265,8 @@ private slots:
             const QString key = action->shortcut().toString();
             if (key.isEmpty() || action->shortcutContext() != Qt::WindowShortcut)
                 continue;
-            QVERIFY2(!seen.contains(key), qPrintable(QStringLiteral("%1: %2, %3").arg(key, seen.value(key), action->text())));
+            QVERIFY2(!seen.contains(key),
+                qPrintable(QStringLiteral("%1: %2, %3").arg(key, seen.value(key), action->text())));
             seen.insert(key, action->text());
         }
         QVERIFY(seen.size() > 15);

@@ -48,6 +48,21 @@ QStringList painted(const TraceData &trace, const TimeView &view, const AxisRang
     return asText(image.paint({&item, 1}, view, height));
 }
 
+/// Where two pictures differ by more than rounding; empty where they don't. But for the first columns: a picture
+/// that begins there knows less of what lies to its left.
+QString difference(const QImage &one, const QImage &other)
+{
+    QString text;
+    for (int x = 4; x < one.width(); ++x) {
+        int count = 0;
+        for (int y = 0; y < one.height(); ++y)
+            count += std::abs(qAlpha(one.pixel(x, y)) - qAlpha(other.pixel(x, y))) > 2 ? 1 : 0;
+        if (count > 0)
+            text += QStringLiteral("%1 pixels in column %2, ").arg(count).arg(x);
+    }
+    return text;
+}
+
 TimeView secondsPerColumn(int columns, int first = 0)
 {
     return {1s, first, columns, {}};
@@ -133,7 +148,8 @@ private slots:
         History current;
         position.append(1s, 100);
         current.append(1s, -7);
-        std::vector traces{traceOf(position, QStringLiteral("°")), traceOf(current), traceOf(position, QStringLiteral("°"))};
+        std::vector traces{
+            traceOf(position, QStringLiteral("°")), traceOf(current), traceOf(position, QStringLiteral("°"))};
         traces[0].scale = 0.5;
         PlotScales scales;
         scales.setTraces(traces);
@@ -280,9 +296,55 @@ private slots:
         History history;
         for (int i = 0; i < 100; ++i)
             history.append(10ms * i, i % 2 == 0 ? 2'000'000'000 : -2'000'000'000);
-        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {0, 1, 1, 0}, 2), QStringList({QStringLiteral("#"), QStringLiteral("#")}));
+        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {0, 1, 1, 0}, 2),
+            QStringList({QStringLiteral("#"), QStringLiteral("#")}));
         QCOMPARE(painted(traceOf(history), {10ms, 0, 100, {}}, {0, 1, 1, 0}, 2).size(), 2);
-        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {3e9, 4e9, 1, 0}, 2), QStringList({QStringLiteral("."), QStringLiteral(".")}));
+        QCOMPARE(painted(traceOf(history), secondsPerColumn(1), {3e9, 4e9, 1, 0}, 2),
+            QStringList({QStringLiteral("."), QStringLiteral(".")}));
+    }
+
+    void scrolledPictureIsTheWholeOne_data()
+    {
+        QTest::addColumn<int>("interval"); ///< microseconds between samples; a column is 1 ms
+        QTest::newRow("spans") << 20;
+        QTest::newRow("lines") << 700;
+        QTest::newRow("long lines with dots") << 15'000;
+    }
+
+    void scrolledPictureIsTheWholeOne()
+    {
+        QFETCH(int, interval);
+        QRandomGenerator random(3);
+        std::array<History, 3> histories;
+        std::vector<TraceData> traces;
+        for (History &history : histories)
+            traces.push_back(traceOf(history));
+        traces[1].color = QColor(0, 0, 255, 100);
+        const AxisRange range{-1000, 1000, 500, 0};
+        TraceImage scrolled;
+        LineTime now = 1s;
+        for (; now < 1250ms; now += std::chrono::microseconds(interval / 3))
+            histories[static_cast<std::size_t>(random.bounded(3))].append(now, random.bounded(-900, 900));
+        for (int frame = 0; frame < 60; ++frame) {
+            const LineTime end = now + std::chrono::microseconds(random.bounded(16'000));
+            for (; now < end; now += std::chrono::microseconds(random.bounded(1, 2 * interval))) {
+                History &history = histories[static_cast<std::size_t>(random.bounded(3))];
+                if (random.bounded(50) == 0)
+                    history.appendGap(now);
+                history.append(now, random.bounded(-900, 900));
+            }
+            if (frame == 40)
+                traces[0].visible = false;
+            std::vector<TraceImage::Item> items;
+            for (const TraceData &trace : traces)
+                items.push_back({&trace, &range, 1.5F, false});
+            const TimeView view{1ms, now / 1ms - 199, 200, {}};
+            const QImage &image = scrolled.paint(items, view, 100);
+            TraceImage fresh;
+            const QImage &whole = fresh.paint(items, view, 100);
+            QCOMPARE(QStringLiteral("frame %1: ").arg(frame) + difference(image, whole),
+                QStringLiteral("frame %1: ").arg(frame));
+        }
     }
 
     void hiddenTracesAreNotPainted()
@@ -319,11 +381,12 @@ private slots:
         QBuffer buffer;
         buffer.open(QIODevice::WriteOnly);
         writeCsv(buffer, traces, 10s + 1ms, 20s);
-        QCOMPARE(QString::fromUtf8(buffer.data()), QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
-                                                   "0.000000,50.0,\n"
-                                                   "0.010000,100.0,-3\n"
-                                                   "0.015000,,-4\n"
-                                                   "0.020000,150.0,\n"));
+        QCOMPARE(QString::fromUtf8(buffer.data()),
+            QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
+                           "0.000000,50.0,\n"
+                           "0.010000,100.0,-3\n"
+                           "0.015000,,-4\n"
+                           "0.020000,150.0,\n"));
     }
 
     void unwritableFileIsSaid()

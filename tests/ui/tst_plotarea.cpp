@@ -89,7 +89,8 @@ struct Bench {
 void wheel(QWidget &widget, int steps, Qt::KeyboardModifiers modifiers = {})
 {
     const QPointF at = widget.rect().center();
-    QWheelEvent event(at, widget.mapToGlobal(at), {}, {0, 120 * steps}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
+    QWheelEvent event(
+        at, widget.mapToGlobal(at), {}, {0, 120 * steps}, Qt::NoButton, modifiers, Qt::NoScrollPhase, false);
     QCoreApplication::sendEvent(&widget, &event);
 }
 
@@ -357,7 +358,7 @@ private slots:
         QFile file(path);
         QVERIFY(file.open(QIODevice::ReadOnly));
         QCOMPARE(QString::fromUtf8(file.readAll()),
-                 QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n0.500000,180.00\n"));
+            QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n0.500000,180.00\n"));
         QCOMPARE(messages.count(), 1);
     }
 

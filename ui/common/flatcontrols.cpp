@@ -98,7 +98,8 @@ void drawCheckBox(const QStyleOption &option, QPainter *painter)
     drawBox(painter, box, set ? mark : option.palette.color(QPalette::Base), set ? mark : controlBorder(option));
     if (set) {
         const bool half = option.state & QStyle::State_NoChange;
-        paintIcon(painter, QRectF(box).adjusted(1, 1, -1, -1), half ? QStringLiteral("minus") : QStringLiteral("check"), Qt::white);
+        paintIcon(painter, QRectF(box).adjusted(1, 1, -1, -1), half ? QStringLiteral("minus") : QStringLiteral("check"),
+            Qt::white);
     }
 }
 
@@ -157,8 +158,8 @@ QRect scrollBarRect(const QStyleOptionSlider &option, QStyle::SubControl part)
         const auto share = static_cast<qint64>(option.pageStep) * whole / (range + option.pageStep);
         length = qBound(qMin(ShortestHandle, whole), static_cast<int>(share), whole);
     }
-    const int begin = QStyle::sliderPositionFromValue(option.minimum, option.maximum, option.sliderPosition, whole - length,
-                                                      option.upsideDown);
+    const int begin = QStyle::sliderPositionFromValue(
+        option.minimum, option.maximum, option.sliderPosition, whole - length, option.upsideDown);
     const auto along = [&option, across](int from, int size) {
         const QRect &rect = option.rect;
         return across ? QRect(rect.left() + from, rect.top(), size, rect.height())

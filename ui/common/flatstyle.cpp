@@ -46,7 +46,8 @@ void drawPushButton(const QStyleOption *option, QPainter *painter)
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
     const bool flat = button && (button->features & QStyleOptionButton::Flat);
     const bool plain = !(option->state & (QStyle::State_Sunken | QStyle::State_On | QStyle::State_MouseOver));
-    const bool focused = (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
+    const bool focused =
+        (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
     if (flat && plain && !focused)
         return;
     const bool isDefault = button && (button->features & QStyleOptionButton::DefaultButton);
@@ -61,7 +62,8 @@ void drawToolButton(const QStyleOption *option, QPainter *painter)
     const bool raised = !(option->state & QStyle::State_AutoRaise);
     const bool active = option->state & (QStyle::State_Sunken | QStyle::State_On | QStyle::State_MouseOver);
     const bool enabled = option->state & QStyle::State_Enabled;
-    const bool focused = (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
+    const bool focused =
+        (option->state & QStyle::State_HasFocus) && (option->state & QStyle::State_KeyboardFocusChange);
     if (!raised && !focused && (!active || !enabled))
         return;
     QStyleOption copy = *option;

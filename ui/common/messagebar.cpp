@@ -129,7 +129,8 @@ void MessageBar::show(Message message)
         else if (m_current->kind == MessageKind::Info)
             m_hideTimer.start(LongTime);
     }
-    m_icon->setPixmap(icon(iconName(m_current->kind), tintOf(m_current->kind)).pixmap(QSize(20, 20), devicePixelRatioF()));
+    m_icon->setPixmap(
+        icon(iconName(m_current->kind), tintOf(m_current->kind)).pixmap(QSize(20, 20), devicePixelRatioF()));
     m_action->setText(m_current->actionText);
     m_action->setVisible(!m_current->actionText.isEmpty());
     updateText();

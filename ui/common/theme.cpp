@@ -27,18 +27,48 @@ struct Tones {
 };
 
 constexpr Tones LightTones{
-    0xFFF4F5F7, 0xFFFFFFFF, 0xFFF8F9FB, 0xFF1D2229, 0xFFFFFFFF, 0xFF0B62C4, 0xFFFFFFFF, 0xFF0B62C4, 0xFF67707C, 0xFF98A0AB,
-    0xFFFFFFFF, 0xFFEEF0F3, 0xFFC9CED6, 0xFFA9B0BA, 0xFF6F7782, 0xFFFFFFFF,
+    .window = 0xFFF4F5F7,
+    .base = 0xFFFFFFFF,
+    .alternate = 0xFFF8F9FB,
+    .text = 0xFF1D2229,
+    .button = 0xFFFFFFFF,
+    .highlight = 0xFF0B62C4,
+    .highlightedText = 0xFFFFFFFF,
+    .link = 0xFF0B62C4,
+    .placeholder = 0xFF67707C,
+    .disabled = 0xFF98A0AB,
+    .light = 0xFFFFFFFF,
+    .midlight = 0xFFEEF0F3,
+    .mid = 0xFFC9CED6,
+    .dark = 0xFFA9B0BA,
+    .shadow = 0xFF6F7782,
+    .tip = 0xFFFFFFFF,
 };
 constexpr Tones DarkTones{
-    0xFF20242A, 0xFF191C21, 0xFF1D2126, 0xFFE4E7EB, 0xFF2B3037, 0xFF2A69C7, 0xFFFFFFFF, 0xFF7DB4FF, 0xFF98A1AD, 0xFF6A737F,
-    0xFF3A4149, 0xFF30363D, 0xFF454C56, 0xFF15181C, 0xFF0C0E11, 0xFF2E343C,
+    .window = 0xFF20242A,
+    .base = 0xFF191C21,
+    .alternate = 0xFF1D2126,
+    .text = 0xFFE4E7EB,
+    .button = 0xFF2B3037,
+    .highlight = 0xFF2A69C7,
+    .highlightedText = 0xFFFFFFFF,
+    .link = 0xFF7DB4FF,
+    .placeholder = 0xFF98A1AD,
+    .disabled = 0xFF6A737F,
+    .light = 0xFF3A4149,
+    .midlight = 0xFF30363D,
+    .mid = 0xFF454C56,
+    .dark = 0xFF15181C,
+    .shadow = 0xFF0C0E11,
+    .tip = 0xFF2E343C,
 };
 
 QPalette paletteOf(const Tones &tones)
 {
     QPalette palette;
-    const auto set = [&palette](QPalette::ColorRole role, QRgb color) { palette.setColor(role, QColor::fromRgb(color)); };
+    const auto set = [&palette](QPalette::ColorRole role, QRgb color) {
+        palette.setColor(role, QColor::fromRgb(color));
+    };
     set(QPalette::Window, tones.window);
     set(QPalette::WindowText, tones.text);
     set(QPalette::Base, tones.base);

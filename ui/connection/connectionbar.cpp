@@ -188,10 +188,11 @@ void ConnectionBar::onBaudChosen(int bitsPerSecond)
     LineSession *line = currentLine();
     if (!line || line->state() != BusThread::State::Open || bitsPerSecond <= 0 || bitsPerSecond == line->baudRate())
         return;
-    m_workbench.commands.workAtBaud(*line, bitsPerSecond, [here = QPointer<ConnectionBar>(this)](const Result<void> &result) {
-        if (!result && here && here->currentLine())
-            here->m_baud->setBaudRate(here->currentLine()->baudRate());
-    });
+    m_workbench.commands.workAtBaud(
+        *line, bitsPerSecond, [here = QPointer<ConnectionBar>(this)](const Result<void> &result) {
+            if (!result && here && here->currentLine())
+                here->m_baud->setBaudRate(here->currentLine()->baudRate());
+        });
 }
 
 void ConnectionBar::update()

@@ -170,15 +170,17 @@ void Connector::onScanned(int found, const QString &trouble)
     emit changed();
     if (!scanned || scanned->state() != BusThread::State::Open)
         return;
+    if (m_workbench.scanner.wasCancelled())
+        return; // who did it knows
     if (!trouble.isEmpty()) {
         emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}});
     } else if (found == 0) {
         emit posted({MessageKind::Warning,
-                     tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(portText(scanned->name())),
-                     {},
-                     {}});
+            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(portText(scanned->name())),
+            {}, {}});
     } else {
-        emit posted({MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {}});
+        emit posted(
+            {MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {}});
     }
 }
 

@@ -55,6 +55,22 @@ ScanOptions::ScanOptions(QWidget *parent)
     m_bauds->setFixedHeight(m_bauds->sizeHintForRow(0) * m_bauds->count() + 8);
     m_bauds->setMinimumWidth(200);
 
+    build();
+    connect(m_bauds, &QListWidget::itemChanged, this, &ScanOptions::update);
+    connect(m_firstId, &QSpinBox::valueChanged, this, [this](int first) {
+        m_lastId->setMinimum(first);
+        update();
+    });
+    connect(m_lastId, &QSpinBox::valueChanged, this, &ScanOptions::update);
+    connect(m_scan, &QPushButton::clicked, this, [this] {
+        hide();
+        emit scanRequested();
+    });
+    update();
+}
+
+void ScanOptions::build()
+{
     auto *likely = new QPushButton(tr("Likely"), this);
     auto *all = new QPushButton(tr("All"), this);
     auto *none = new QPushButton(tr("None"), this);
@@ -83,18 +99,6 @@ ScanOptions::ScanOptions(QWidget *parent)
     layout->addLayout(ids);
     layout->addWidget(m_summary);
     layout->addWidget(m_scan);
-
-    connect(m_bauds, &QListWidget::itemChanged, this, &ScanOptions::update);
-    connect(m_firstId, &QSpinBox::valueChanged, this, [this](int first) {
-        m_lastId->setMinimum(first);
-        update();
-    });
-    connect(m_lastId, &QSpinBox::valueChanged, this, &ScanOptions::update);
-    connect(m_scan, &QPushButton::clicked, this, [this] {
-        hide();
-        emit scanRequested();
-    });
-    update();
 }
 
 void ScanOptions::popup(const QPoint &position)

@@ -29,6 +29,7 @@ signals:
     void scanRequested();
 
 private:
+    void build();
     void update();
     std::vector<int> checkedBauds() const;
 

@@ -94,7 +94,8 @@ void StopButton::paintEvent(QPaintEvent *)
     paintIcon(&painter, QRectF(left, (height() - IconSize) / 2.0, IconSize, IconSize),
               active ? QStringLiteral("unlock") : QStringLiteral("stop"), ink);
     painter.setPen(ink);
-    painter.drawText(QRect(left + IconSize + Gap, 0, textWidth + 4, height()), Qt::AlignVCenter | Qt::AlignLeft, text());
+    painter.drawText(
+        QRect(left + IconSize + Gap, 0, textWidth + 4, height()), Qt::AlignVCenter | Qt::AlignLeft, text());
 }
 
 } // namespace dynascope

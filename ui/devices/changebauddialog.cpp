@@ -58,11 +58,13 @@ void ChangeBaudDialog::check()
     else if (joins)
         setNote(MessageKind::Info, tr("That is the rate the line works at: the device joins the others."));
     else if (isAlone())
-        setNote(MessageKind::Info, tr("It is the only device that works here: the line follows it to %1.").arg(baudText(baud)));
+        setNote(MessageKind::Info,
+            tr("It is the only device that works here: the line follows it to %1.").arg(baudText(baud)));
     else
-        setNote(MessageKind::Warning, tr("The line goes on at %1: this device will be parked, and isn't polled or plotted "
-                                         "until the line works at %2.")
-                                          .arg(line ? baudText(line->baudRate()) : QString(), baudText(baud)));
+        setNote(MessageKind::Warning,
+            tr("The line goes on at %1: this device will be parked, and isn't polled or plotted "
+               "until the line works at %2.")
+                .arg(line ? baudText(line->baudRate()) : QString(), baudText(baud)));
 }
 
 void ChangeBaudDialog::accept()

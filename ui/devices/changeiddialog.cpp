@@ -78,7 +78,8 @@ void ChangeIdDialog::check()
     if (id == device()->id())
         setNote(MessageKind::Error, tr("That is its ID now."));
     else if (!other.isEmpty())
-        setNote(MessageKind::Error, tr("ID %1 is taken by %2. Two devices with one ID can't be told apart.").arg(id).arg(other));
+        setNote(MessageKind::Error,
+            tr("ID %1 is taken by %2. Two devices with one ID can't be told apart.").arg(id).arg(other));
     else if (!torqueAllows())
         setNote(MessageKind::Error, tr("The servo keeps its ID locked while its torque is on."));
     else

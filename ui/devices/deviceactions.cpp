@@ -34,10 +34,10 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     m_reboot = add(key("reboot"), key("reboot"), tr("Reboot"), key("Ctrl+Shift+B"),
                    tr("Restart: torque goes off, RAM goes back to defaults, a latched hardware error is cleared"),
                    &DeviceActions::reboot);
-    m_rename = add(key("rename"), key("edit"), tr("Nickname…"), key("F2"), tr("A name of your own; the servo knows nothing of it"),
-                   &DeviceActions::rename);
-    m_changeId = add(key("changeId"), key("id"), tr("Change ID…"), key("Ctrl+Shift+I"), tr("Give this device another ID"),
-                     &DeviceActions::changeId);
+    m_rename = add(key("rename"), key("edit"), tr("Nickname…"), key("F2"),
+        tr("A name of your own; the servo knows nothing of it"), &DeviceActions::rename);
+    m_changeId = add(key("changeId"), key("id"), tr("Change ID…"), key("Ctrl+Shift+I"),
+        tr("Give this device another ID"), &DeviceActions::changeId);
     m_changeBaud = add(key("changeBaud"), key("baud"), tr("Change baud rate…"), key("Ctrl+Shift+U"),
                        tr("Let this device work at another baud rate"), &DeviceActions::changeBaud);
     m_workAtBaud = add(key("workAtBaud"), key("parked"), tr("Work at this baud"), key("Ctrl+Shift+W"),
@@ -112,12 +112,12 @@ void DeviceActions::update()
     const bool any = !devices.empty();
     const bool known = std::ranges::any_of(devices, &Device::isKnownModel);
     const auto has = [&devices](const char *name) {
-        return std::ranges::any_of(
-            devices, [name](const Device *device) { return device->table().find(QString::fromLatin1(name)) != nullptr; });
+        return std::ranges::any_of(devices,
+            [name](const Device *device) { return device->table().find(QString::fromLatin1(name)) != nullptr; });
     };
     Device *one = single();
     m_identify->setEnabled(has("LED"));
-    m_torqueOn->setEnabled(has("Torque Enable") && !m_workbench.commands.isStopped());
+    m_torqueOn->setEnabled(has("Torque Enable")); // also while STOP holds: the refusal says what to do
     m_torqueOff->setEnabled(has("Torque Enable"));
     m_readAll->setEnabled(known);
     m_reboot->setEnabled(any);
@@ -126,7 +126,8 @@ void DeviceActions::update()
     m_changeBaud->setEnabled(one && one->table().find(u"Baud Rate"));
     m_workAtBaud->setEnabled(m_line && m_baudRate > 0 && m_line->state() == BusThread::State::Open
                              && m_line->baudRate() != m_baudRate);
-    m_workAtBaud->setText(m_workAtBaud->isEnabled() ? tr("Work at %1").arg(baudText(m_baudRate)) : tr("Work at this baud"));
+    m_workAtBaud->setText(
+        m_workAtBaud->isEnabled() ? tr("Work at %1").arg(baudText(m_baudRate)) : tr("Work at this baud"));
     m_clearMultiTurn->setEnabled(any);
     m_factoryReset->setEnabled(one && one->isKnownModel());
     m_forget->setEnabled(!this->devices().empty());
@@ -151,7 +152,8 @@ void DeviceActions::confirm(const QString &title, const QString &text, const QSt
 void DeviceActions::identify()
 {
     const std::vector<Device *> devices = reachable();
-    const bool allOn = std::ranges::all_of(devices, [](const Device *device) { return device->raw(u"LED").value_or(0) != 0; });
+    const bool allOn =
+        std::ranges::all_of(devices, [](const Device *device) { return device->raw(u"LED").value_or(0) != 0; });
     for (Device *device : devices)
         m_workbench.commands.setLed(*device, !allOn);
 }
@@ -159,7 +161,7 @@ void DeviceActions::identify()
 void DeviceActions::torqueOn()
 {
     const std::vector<Device *> devices = reachable();
-    if (devices.size() <= 1)
+    if (devices.size() <= 1 || m_workbench.commands.isStopped())
         return turnTorqueOn(devices);
     confirm(tr("Torque on"),
             tr("Turn the torque of %1 devices on? Each holds its position, and may move to a goal it was given before.")
@@ -179,10 +181,12 @@ void DeviceActions::turnTorqueOn(const std::vector<Device *> &devices)
     std::vector<DeviceKey> keys;
     for (const Device *device : devices)
         keys.push_back(device->key());
-    m_workbench.commands.setTorque(devices, true, [this, here = QPointer<DeviceActions>(this), keys](const Result<void> &) {
-        if (here) // also where some failed: each is asked for its torque when it matters
-            emit torqueEnabled(keys);
-    });
+    m_workbench.commands.setTorque(
+        devices, true, [this, here = QPointer<DeviceActions>(this), keys](const Result<void> &result) {
+            // Also where some failed: each is asked for its torque when it matters.
+            if (here && (result || result.error().kind != ErrorKind::Stopped))
+                emit torqueEnabled(keys);
+        });
 }
 
 void DeviceActions::torqueOff()
@@ -209,10 +213,12 @@ void DeviceActions::reboot()
     if (held == 0)
         return run();
     confirm(tr("Reboot"),
-            devices.size() == 1
-                ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.").arg(devices.front()->displayName())
-                : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.").arg(held),
-            tr("Reboot"), run);
+        devices.size() == 1
+            ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.")
+                  .arg(devices.front()->displayName())
+            : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.")
+                  .arg(held),
+        tr("Reboot"), run);
 }
 
 void DeviceActions::rename()
@@ -225,10 +231,11 @@ void DeviceActions::rename()
     dialog->setWindowTitle(tr("Nickname"));
     dialog->setLabelText(tr("Nickname of %1, ID %2:").arg(devices.front()->model()).arg(devices.front()->id()));
     dialog->setTextValue(devices.front()->nickname());
-    connect(dialog, &QInputDialog::textValueSelected, this, [device = QPointer<Device>(devices.front())](const QString &name) {
-        if (device)
-            device->setNickname(name.trimmed().left(40));
-    });
+    connect(dialog, &QInputDialog::textValueSelected, this,
+        [device = QPointer<Device>(devices.front())](const QString &name) {
+            if (device)
+                device->setNickname(name.trimmed().left(40));
+        });
     open(dialog);
 }
 

@@ -11,8 +11,8 @@ class QDialog;
 
 namespace dynascope {
 
-/// What can be done with the selected devices, as actions for menu, context menu and tool row. Asks only where something
-/// can't be taken back or something falls.
+/// What can be done with the selected devices, as actions for menu, context menu and tool row. Asks only where
+/// something can't be taken back or something falls.
 class DeviceActions : public QObject
 {
     Q_OBJECT

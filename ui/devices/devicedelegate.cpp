@@ -27,7 +27,8 @@ Inks inksOf(const QStyleOptionViewItem &option, bool dimmedRow)
     const bool selected = option.state & QStyle::State_Selected;
     const ThemeColors &theme = colors(option.palette);
     if (selected) {
-        const QColor text = option.palette.color(active ? QPalette::Active : QPalette::Inactive, QPalette::HighlightedText);
+        const QColor text =
+            option.palette.color(active ? QPalette::Active : QPalette::Inactive, QPalette::HighlightedText);
         return {text, text, text, text};
     }
     const QColor text = option.palette.color(QPalette::Active, QPalette::Text);
@@ -79,7 +80,8 @@ void DeviceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option
     style->drawPrimitive(QStyle::PE_PanelItemViewItem, &row, painter, row.widget);
     painter->save();
     painter->setClipRect(row.rect);
-    if (static_cast<DeviceTreeModel::Kind>(index.data(DeviceTreeModel::KindRole).toInt()) == DeviceTreeModel::Kind::Device)
+    if (static_cast<DeviceTreeModel::Kind>(index.data(DeviceTreeModel::KindRole).toInt())
+        == DeviceTreeModel::Kind::Device)
         paintDevice(painter, row, index);
     else
         paintHeading(painter, row, index);
@@ -113,8 +115,9 @@ void DeviceDelegate::paintHeading(QPainter *painter, const QStyleOptionViewItem 
         return;
     painter->setFont(smaller(option.font));
     painter->setPen(isLine && dimmed ? inks.warning : inks.dimmed);
-    drawText(painter, rect, (isLine ? QString() : QStringLiteral("· ")) + index.data(DeviceTreeModel::SubtitleRole).toString(),
-             Qt::ElideRight);
+    drawText(painter, rect,
+        (isLine ? QString() : QStringLiteral("· ")) + index.data(DeviceTreeModel::SubtitleRole).toString(),
+        Qt::ElideRight);
 }
 
 void DeviceDelegate::paintDevice(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
@@ -137,7 +140,8 @@ void DeviceDelegate::paintDevice(QPainter *painter, const QStyleOptionViewItem &
     paintIcon(painter, QRectF(rect.left(), rect.center().y() - IconSize / 2.0 + 0.5, IconSize, IconSize), name, ink);
     rect.setLeft(rect.left() + IconSize + Margin);
 
-    const int idWidth = drawId(painter, rect, smaller(option.font), index.data(DeviceTreeModel::IdRole).toInt(), inks.dimmed);
+    const int idWidth =
+        drawId(painter, rect, smaller(option.font), index.data(DeviceTreeModel::IdRole).toInt(), inks.dimmed);
     const int half = rect.height() / 2;
     const QRect top(rect.left(), rect.top(), rect.width() - idWidth - Margin, half);
     const QRect bottom(rect.left(), rect.top() + half, rect.width(), rect.height() - half);

@@ -32,7 +32,8 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     m_torqueOff->setObjectName(QStringLiteral("turnTorqueOff"));
     m_torqueOff->setToolTip(tr("What the servo holds may fall"));
 
-    auto *who = new QLabel(tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate())), this);
+    auto *who = new QLabel(
+        tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate())), this);
     who->setWordWrap(true);
     QFont bold = who->font();
     bold.setBold(true);

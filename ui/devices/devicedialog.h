@@ -14,8 +14,8 @@ class QPushButton;
 
 namespace dynascope {
 
-/// What the dialogs about one device share: who it is, a line that says what stands in the way or what will follow, torque.
-/// Closes when the device goes. For open(), never exec().
+/// What the dialogs about one device share: who it is, a line that says what stands in the way or what will follow,
+/// torque. Closes when the device goes. For open(), never exec().
 class DeviceDialog : public QDialog
 {
     Q_OBJECT

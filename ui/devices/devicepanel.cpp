@@ -2,7 +2,6 @@
 #include "ui/devices/devicepanel.h"
 
 #include "core/session/scanner.h"
-#include "core/session/stopcontrol.h"
 #include "ui/common/icons.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicedelegate.h"
@@ -38,7 +37,6 @@ DevicePanel::DevicePanel(const Workbench &workbench, QWidget *parent)
 
     const auto updateActions = [this] { m_actions->update(); };
     connect(m_model, &QAbstractItemModel::dataChanged, m_actions, updateActions);
-    connect(&workbench.stop, &StopControl::changed, m_actions, updateActions);
     connect(m_model, &QAbstractItemModel::rowsInserted, this, &DevicePanel::updateEmptyView);
     connect(m_model, &QAbstractItemModel::rowsRemoved, this, &DevicePanel::updateEmptyView);
     connect(m_model, &QAbstractItemModel::dataChanged, this, &DevicePanel::updateEmptyView);
@@ -76,9 +74,11 @@ void DevicePanel::makeTree()
     for (QAction *action : m_actions->menuActions()) {
         if (!action)
             continue;
-        // Del belongs to the tree alone: elsewhere it edits text. The rest works in the whole window.
-        action->setShortcutContext(action->shortcut() == QKeySequence(Qt::Key_Delete) ? Qt::WidgetShortcut
-                                                                                        : Qt::WindowShortcut);
+        // Del and F2 edit text and cells elsewhere: here they belong to the tree alone. The rest works in the whole
+        // window.
+        const QKeySequence key = action->shortcut();
+        const bool own = key == QKeySequence(Qt::Key_Delete) || key == QKeySequence(Qt::Key_F2);
+        action->setShortcutContext(own ? Qt::WidgetShortcut : Qt::WindowShortcut);
         m_tree->addAction(action);
     }
     m_tree->expandAll();

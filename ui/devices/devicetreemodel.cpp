@@ -132,7 +132,8 @@ void DeviceTreeModel::dropIfEmpty(BaudNode *baud)
 void DeviceTreeModel::onFields(Device *device, int first, int last)
 {
     // A thousand times a second for what is plotted: only what the row shows counts.
-    for (const QStringView name : {QStringView(u"Torque Enable"), QStringView(u"Hardware Error Status"), QStringView(u"LED")}) {
+    for (const QStringView name :
+        {QStringView(u"Torque Enable"), QStringView(u"Hardware Error Status"), QStringView(u"LED")}) {
         const int index = device->table().indexOf(name);
         if (index >= first && index <= last)
             return touch(indexOf(device));
@@ -182,7 +183,8 @@ DeviceTreeModel::BaudNode *DeviceTreeModel::nodeOf(const Device *device) const
 
 DeviceTreeModel::BaudNode *DeviceTreeModel::baudNode(LineNode *line, int baudRate)
 {
-    const auto at = std::ranges::find_if(line->bauds, [baudRate](const auto &node) { return node->baudRate >= baudRate; });
+    const auto at =
+        std::ranges::find_if(line->bauds, [baudRate](const auto &node) { return node->baudRate >= baudRate; });
     if (at != line->bauds.end() && (*at)->baudRate == baudRate)
         return at->get();
     const auto row = static_cast<int>(at - line->bauds.begin());
@@ -229,7 +231,8 @@ QModelIndex DeviceTreeModel::indexOf(const Device *device) const
     return createIndex(static_cast<int>(at - baud->devices.begin()), 0, baud);
 }
 
-// An index points to the node above its row: nothing for a line, the LineNode for a baud rate, the BaudNode for a device.
+// An index points to the node above its row: nothing for a line, the LineNode for a baud rate, the BaudNode for a
+// device.
 
 DeviceTreeModel::Kind DeviceTreeModel::kind(const QModelIndex &index) const
 {

@@ -8,8 +8,8 @@
 
 namespace dynascope {
 
-/// Line → baud rate → device, kept up to date with a Session. One column. A device that changes its ID or baud rate moves;
-/// it doesn't go and come, so a selection stays with it.
+/// Line → baud rate → device, kept up to date with a Session. One column. A device that changes its ID or baud rate
+/// moves; it doesn't go and come, so a selection stays with it.
 class DeviceTreeModel : public QAbstractItemModel
 {
     Q_OBJECT

@@ -11,7 +11,8 @@ QVariant DeviceTreeModel::lineData(const LineNode &node, int role) const
     case Qt::DisplayRole: return portText(node.line->name());
     case SubtitleRole: return lineStateText(*node.line);
     case Qt::ToolTipRole: return QStringLiteral("%1\n%2").arg(node.line->name(), lineStateText(*node.line));
-    case Qt::AccessibleTextRole: return QStringLiteral("%1, %2").arg(portText(node.line->name()), lineStateText(*node.line));
+    case Qt::AccessibleTextRole:
+        return QStringLiteral("%1, %2").arg(portText(node.line->name()), lineStateText(*node.line));
     case DimmedRole: return node.line->state() != BusThread::State::Open;
     default: return {};
     }
@@ -59,7 +60,8 @@ QVariant DeviceTreeModel::deviceData(const Device &device, int role) const
         return torque ? QVariant(*torque != 0) : QVariant();
     }
     case Qt::ToolTipRole: {
-        QStringList lines{tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate()))};
+        QStringList lines{
+            tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate()))};
         lines << tr("%1, firmware %2").arg(device.model()).arg(device.firmware());
         const QString help = deviceStateHelp(device);
         lines << (help.isEmpty() ? deviceStateText(device) : help);

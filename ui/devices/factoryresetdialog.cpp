@@ -34,7 +34,8 @@ FactoryResetDialog::Place FactoryResetDialog::after(ResetOption option) const
     if (option == ResetOption::All)
         place.id = id ? static_cast<int>(id->initial.value_or(1)) : 1;
     if (option != ResetOption::AllButIdAndBaud)
-        place.baudRate = device()->table().baudRate(baud ? static_cast<int>(baud->initial.value_or(1)) : 1).value_or(57600);
+        place.baudRate =
+            device()->table().baudRate(baud ? static_cast<int>(baud->initial.value_or(1)) : 1).value_or(57600);
     return place;
 }
 

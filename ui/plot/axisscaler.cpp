@@ -31,9 +31,7 @@ int decimalsFor(double step)
     return step >= 1 ? 0 : std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
 }
 
-AxisScaler::AxisScaler(double smallestSpan, bool isAngle)
-    : m_smallestSpan(smallestSpan)
-    , m_isAngle(isAngle)
+AxisScaler::AxisScaler(double smallestSpan, bool isAngle) : m_smallestSpan(smallestSpan), m_isAngle(isAngle)
 {
     take(0, 1);
 }

@@ -17,7 +17,8 @@ struct AxisRange {
     friend bool operator==(const AxisRange &, const AxisRange &) = default;
 };
 
-/// The smallest of 1, 2, 5 × 10ⁿ that cuts `span` into at most `most` steps. Above 10°, angles step by 15, 30, 45, 90...
+/// The smallest of 1, 2, 5 × 10ⁿ that cuts `span` into at most `most` steps. Above 10°, angles step by 15, 30,
+/// 45, 90...
 double niceStep(double span, int most, bool isAngle = false);
 /// So many decimals tell multiples of `step` apart.
 int decimalsFor(double step);

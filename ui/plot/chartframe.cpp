@@ -52,10 +52,7 @@ QString labelFormat(int decimals, const QString &unit)
 
 } // namespace
 
-ChartFrame::ChartFrame()
-    : m_scene(std::make_unique<QGraphicsScene>())
-    , m_chart(new QChart)
-    , m_time(new QValueAxis)
+ChartFrame::ChartFrame() : m_scene(std::make_unique<QGraphicsScene>()), m_chart(new QChart), m_time(new QValueAxis)
 {
     m_scene->addItem(m_chart);
     m_chart->legend()->hide();
@@ -86,8 +83,8 @@ QRectF ChartFrame::plotArea(const Content &content)
 {
     const QFontMetricsF metrics(content.font);
     const qreal labels = metrics.horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
-    const qreal left = content.values[0].isUsed ? labels : Margin;
-    const qreal right = content.values[1].isUsed ? labels : 2.0 * Margin;
+    const qreal left = content.hasRoom[0] ? labels : Margin;
+    const qreal right = content.hasRoom[1] ? labels : 2.0 * Margin;
     const qreal top = metrics.height() + 1.5 * Margin;
     const qreal bottom = metrics.height() + 1.5 * Margin;
     const auto whole = [&content](qreal value) { return std::round(value * content.pixelRatio) / content.pixelRatio; };
@@ -144,12 +141,13 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
     painter.setFont(content.font);
     const ThemeColors &theme = colors(content.palette);
     painter.setPen(theme.border);
-    painter.drawRect(area);
+    painter.drawRect(area.adjusted(0, 0, -1, -1));
     painter.setPen(theme.dimmed);
     const QRectF above(area.left(), 0, area.width(), area.top() - 3);
     for (std::size_t i = 0; i < m_values.size(); ++i) {
         if (content.values[i].isUsed)
-            painter.drawText(above, Qt::AlignBottom | (i == 0 ? Qt::AlignLeft : Qt::AlignRight), content.values[i].title);
+            painter.drawText(
+                above, Qt::AlignBottom | (i == 0 ? Qt::AlignLeft : Qt::AlignRight), content.values[i].title);
     }
     return m_pixmap;
 }

@@ -39,6 +39,7 @@ public:
         double fromSeconds = -10; ///< of the time axis
         double toSeconds = 0;
         std::array<ValueAxis, 2> values; ///< left, right
+        std::array<bool, 2> hasRoom{};   ///< for labels on that side, even where none are
 
         friend bool operator==(const Content &, const Content &) = default;
     };
@@ -47,8 +48,8 @@ public:
     ~ChartFrame();
 
     const QPixmap &pixmap(const Content &content);
-    /// Inside the axes, on whole device pixels. Depends on size, font and which axes are used, not on ranges, so it
-    /// doesn't jump while values do.
+    /// Inside the axes, on whole device pixels. Depends on size, font and where there is room for labels, not on
+    /// ranges, so it doesn't jump while values do.
     static QRectF plotArea(const Content &content);
 
 private:

@@ -5,17 +5,6 @@
 
 namespace dynascope {
 
-/// A history can have been emptied and filled again since: then the sample that was the last isn't where it was.
-bool ColumnCache::isStillTrue(const History &history, const TimeView &view) const
-{
-    if (m_history != &history || m_view.step != view.step || m_view.columns != view.columns
-        || view.firstColumn < m_view.firstColumn || view.firstColumn >= m_view.firstColumn + m_view.columns
-        || history.appended() < m_appended)
-        return false;
-    const std::uint64_t back = history.appended() - m_appended; // appended since
-    return back < history.size() && history.at(history.size() - 1 - static_cast<std::size_t>(back)) == m_last;
-}
-
 std::span<const History::Column> ColumnCache::columns(const History &history, const TimeView &view)
 {
     if (history.isEmpty()) {
@@ -24,20 +13,22 @@ std::span<const History::Column> ColumnCache::columns(const History &history, co
         return m_columns;
     }
     std::int64_t firstStale = view.firstColumn;
-    if (isStillTrue(history, view)) {
+    const bool isKept = m_history == &history && m_view.step == view.step && m_view.columns == view.columns
+        && view.firstColumn >= m_view.firstColumn && view.firstColumn < m_view.firstColumn + m_view.columns
+        && m_mark.stillHolds(history);
+    if (isKept) {
         const auto moved = static_cast<std::ptrdiff_t>(view.firstColumn - m_view.firstColumn);
         std::move(m_columns.begin() + moved, m_columns.end(), m_columns.begin());
         // More may have come into the column of what was the newest sample, never before it.
-        firstStale = std::clamp<std::int64_t>(m_last.at / view.step, view.firstColumn,
-                                              m_view.firstColumn + m_view.columns);
+        firstStale =
+            std::clamp<std::int64_t>(m_mark.last.at / view.step, view.firstColumn, m_view.firstColumn + m_view.columns);
     } else {
         m_columns.resize(static_cast<std::size_t>(view.columns));
     }
     const auto stale = std::span(m_columns).subspan(static_cast<std::size_t>(firstStale - view.firstColumn));
     history.columns(view.step * firstStale, view.to(), stale);
     m_history = &history;
-    m_appended = history.appended();
-    m_last = history.last();
+    m_mark = HistoryMark::of(history);
     m_view = view;
     return m_columns;
 }

@@ -26,11 +26,19 @@ void ColumnRaster::resize(int width, int height)
     m_height = std::max(height, 0);
     m_pixels.assign(static_cast<std::size_t>(m_width) * static_cast<std::size_t>(m_height), 0);
     m_image = QImage(m_width, m_height, QImage::Format_ARGB32_Premultiplied);
+    m_firstNew = 0;
 }
 
-void ColumnRaster::clear()
+void ColumnRaster::scroll(int columns, int firstNew)
 {
-    std::ranges::fill(m_pixels, 0);
+    m_firstNew = std::clamp(firstNew, 0, m_width);
+    std::fill(m_pixels.begin() + static_cast<std::ptrdiff_t>(m_firstNew) * m_height, m_pixels.end(), 0U);
+    if (columns <= 0 || m_firstNew == 0)
+        return;
+    for (int y = 0; y < m_height; ++y) {
+        auto *row = reinterpret_cast<quint32 *>(m_image.scanLine(y));
+        std::copy(row + columns, row + columns + m_firstNew, row);
+    }
 }
 
 void ColumnRaster::setColor(const QColor &color)
@@ -107,7 +115,7 @@ const QImage &ColumnRaster::image()
     const auto stride = static_cast<std::size_t>(m_image.bytesPerLine()) / sizeof(quint32);
     for (int top = 0; top < m_height; top += Tile) {
         const int bottom = std::min(top + Tile, m_height);
-        for (int left = 0; left < m_width; left += Tile) {
+        for (int left = m_firstNew; left < m_width; left += Tile) {
             const int right = std::min(left + Tile, m_width);
             for (int y = top; y < bottom; ++y) {
                 quint32 *to = pixels + static_cast<std::size_t>(y) * stride;

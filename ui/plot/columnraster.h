@@ -8,13 +8,14 @@
 
 namespace dynascope {
 
-/// A picture that is painted in vertical spans, with soft ends. Pixels of a column lie side by side in memory, so a span
-/// is one fill; image() turns the whole on its side.
+/// A picture that is painted in vertical spans, with soft ends. Pixels of a column lie side by side in memory, so a
+/// span is one fill; image() turns what is new on its side.
 class ColumnRaster
 {
 public:
     void resize(int width, int height);
-    void clear();
+    /// Keeps what was painted, moved to the left, but for the columns from `firstNew` on, which are empty.
+    void scroll(int columns, int firstNew);
     int width() const { return m_width; }
     int height() const { return m_height; }
 
@@ -38,6 +39,7 @@ private:
     int m_height = 0;
     std::vector<quint32> m_pixels; ///< column by column
     QImage m_image;
+    int m_firstNew = 0;  ///< columns before it are in m_image alone
     quint32 m_color = 0; ///< premultiplied
     bool m_opaque = true;
 };

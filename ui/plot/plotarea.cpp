@@ -25,8 +25,7 @@ constexpr auto ValueInterval = 100ms;
 
 } // namespace
 
-PlotArea::PlotArea(const Workbench &workbench, QWidget *parent)
-    : PlotArea(workbench.session, workbench.monitor, parent)
+PlotArea::PlotArea(const Workbench &workbench, QWidget *parent) : PlotArea(workbench.session, workbench.monitor, parent)
 {
 }
 
@@ -84,7 +83,7 @@ PlotPanel *PlotArea::addPanel()
     connect(panel, &PlotPanel::activated, this, [this, panel] { m_present = panel; });
     connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
     connect(panel, &PlotPanel::removeRequested, this,
-            [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
+        [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
     connect(panel, &PlotPanel::watchesDropped, this, [this, panel](const std::vector<Watch> &watches) {
         for (const Watch &watch : watches)
             addTo(panel, watch);
@@ -167,13 +166,14 @@ void PlotArea::onTracesChanged()
     m_bar->setHasTraces(!traces().empty());
     if (traces().empty())
         setLive(true);
-    showNewest();
+    refreshAll();
     emit tracesChanged();
 }
 
 bool PlotArea::shows(const Watch &watch) const
 {
-    return std::ranges::any_of(m_panels, [&watch](const PlotPanel *panel) { return panel->model().indexOf(watch) >= 0; });
+    return std::ranges::any_of(
+        m_panels, [&watch](const PlotPanel *panel) { return panel->model().indexOf(watch) >= 0; });
 }
 
 std::vector<Watch> PlotArea::traces() const
@@ -217,8 +217,14 @@ void PlotArea::onFrame()
 
 void PlotArea::refreshAll()
 {
-    for (PlotPanel *panel : m_panels)
+    std::array<bool, 2> room{};
+    for (PlotPanel *panel : m_panels) {
         panel->refreshTraces();
+        const std::array<bool, 2> sides = panel->chart().labelledSides();
+        room = {room[0] || sides[0], room[1] || sides[1]};
+    }
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setLabelRoom(room);
     showNewest();
 }
 
@@ -268,7 +274,8 @@ void PlotArea::clear()
         panel->model().refreshValues();
 }
 
-void PlotArea::askForFile(const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save)
+void PlotArea::askForFile(
+    const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save)
 {
     auto *dialog = new QFileDialog(this, title);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -300,7 +307,7 @@ void PlotArea::saveCsvFile()
 void PlotArea::savePictureFile()
 {
     askForFile(tr("Save the plots as a picture"), QStringLiteral("png"),
-               [picture = m_splitter->grab()](const QString &path) { return savePicture(path, picture); });
+        [picture = m_splitter->grab()](const QString &path) { return savePicture(path, picture); });
 }
 
 QByteArray PlotArea::saveState() const
@@ -317,7 +324,7 @@ QByteArray PlotArea::saveState() const
                 continue;
             const Field &field = device->table().fields()[static_cast<std::size_t>(model.watch(row).field)];
             traces.push_back({device->line()->name(), device->table().modelNumber(), device->id(), field.name,
-                              model.colorIndex(row), model.isVisible(row)});
+                model.colorIndex(row), model.isVisible(row)});
         }
         if (i < m_waiting.size())
             traces.insert(traces.end(), m_waiting[i].begin(), m_waiting[i].end());

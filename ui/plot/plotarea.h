@@ -74,7 +74,7 @@ private:
     std::vector<PlotPanel *> m_panels; ///< the splitter's
     PlotPanel *m_present = nullptr;    ///< where new traces go
     QTimer m_frames;
-    QTimer m_values;                   ///< for the numbers in the lists: no faster than can be read
+    QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };

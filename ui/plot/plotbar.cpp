@@ -23,8 +23,7 @@ int inSeconds(LineTime time)
 
 } // namespace
 
-SpanBox::SpanBox(QWidget *parent)
-    : QSpinBox(parent)
+SpanBox::SpanBox(QWidget *parent) : QSpinBox(parent)
 {
     setRange(inSeconds(TimeWindow::ShortestSpan), inSeconds(TimeWindow::LongestSpan));
     setSuffix(tr(" s"));
@@ -47,13 +46,12 @@ void SpanBox::stepBy(int steps)
     }
 }
 
-PlotBar::PlotBar(QWidget *parent)
-    : QToolBar(parent)
-    , m_span(new SpanBox(this))
+PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
 {
     setIconSize({16, 16});
     setMovable(false);
-    m_pause = add(QStringLiteral("pause"), tr("Pause"), tr("Hold the plots still; drag and wheel then move and zoom them"));
+    m_pause =
+        add(QStringLiteral("pause"), tr("Pause"), tr("Hold the plots still; drag and wheel then move and zoom them"));
     m_pause->setCheckable(true);
     connect(m_pause, &QAction::toggled, this, [this](bool paused) {
         showLive(!paused);
@@ -61,7 +59,8 @@ PlotBar::PlotBar(QWidget *parent)
     });
     addWidget(m_span);
     connect(m_span, &QSpinBox::valueChanged, this, &PlotBar::spanChanged);
-    m_autoscale = add(QStringLiteral("fit"), tr("Autoscale"), tr("Let the value axes follow what is seen (Ctrl+wheel zooms by hand)"));
+    m_autoscale = add(QStringLiteral("fit"), tr("Autoscale"),
+        tr("Let the value axes follow what is seen (Ctrl+wheel zooms by hand)"));
     m_autoscale->setCheckable(true);
     m_autoscale->setChecked(true);
     connect(m_autoscale, &QAction::toggled, this, &PlotBar::autoscaleChanged);
@@ -73,7 +72,8 @@ PlotBar::PlotBar(QWidget *parent)
     QAction *picture = add(QStringLiteral("camera"), tr("Save as picture..."), tr("Save the plots as a PNG picture"));
     connect(picture, &QAction::triggered, this, &PlotBar::pictureRequested);
     addSeparator();
-    QAction *panel = add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
+    QAction *panel =
+        add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
     m_needTraces = {m_pause, clear, csv, picture};
     setHasTraces(false);
@@ -90,7 +90,8 @@ void PlotBar::showLive(bool live)
 {
     m_pause->setIcon(icon(live ? QStringLiteral("pause") : QStringLiteral("play")));
     m_pause->setText(live ? tr("Pause") : tr("Live"));
-    m_pause->setToolTip(live ? tr("Hold the plots still; drag and wheel then move and zoom them") : tr("Follow the newest values again"));
+    m_pause->setToolTip(live ? tr("Hold the plots still; drag and wheel then move and zoom them")
+                             : tr("Follow the newest values again"));
 }
 
 void PlotBar::setLive(bool live)

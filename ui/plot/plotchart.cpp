@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/plotchart.h"
 
+#include "ui/common/icons.h"
 #include "ui/common/theme.h"
 #include "ui/plot/plotreadout.h"
 
@@ -25,9 +26,7 @@ double seconds(LineTime time)
 
 } // namespace
 
-PlotChart::PlotChart(const TimeWindow &window, QWidget *parent)
-    : QWidget(parent)
-    , m_window(window)
+PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent), m_window(window)
 {
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
@@ -67,6 +66,25 @@ void PlotChart::setAutoscale(bool on)
     update();
 }
 
+std::array<bool, 2> PlotChart::labelledSides() const
+{
+    return {m_scales.labelled(0) != nullptr, m_scales.labelled(1) != nullptr};
+}
+
+void PlotChart::setLabelRoom(std::array<bool, 2> room)
+{
+    if (room == m_labelRoom)
+        return;
+    m_labelRoom = room;
+    update();
+}
+
+std::array<bool, 2> PlotChart::labelRoom() const
+{
+    const std::array<bool, 2> own = labelledSides();
+    return {own[0] || m_labelRoom[0], own[1] || m_labelRoom[1]};
+}
+
 void PlotChart::setEmptyText(const QString &text)
 {
     m_emptyText = text;
@@ -85,8 +103,7 @@ QRectF PlotChart::plotArea() const
     content.size = size();
     content.pixelRatio = devicePixelRatioF();
     content.font = font();
-    for (std::size_t i = 0; i < content.values.size(); ++i)
-        content.values[i].isUsed = m_scales.labelled(static_cast<int>(i)) != nullptr;
+    content.hasRoom = labelRoom();
     return ChartFrame::plotArea(content);
 }
 
@@ -104,6 +121,7 @@ ChartFrame::Content PlotChart::frameContent(const TimeView &view) const
     content.palette = palette();
     content.fromSeconds = seconds(view.from() - view.zero);
     content.toSeconds = seconds(view.to() - view.zero);
+    content.hasRoom = labelRoom();
     for (std::size_t i = 0; i < content.values.size(); ++i) {
         if (const PlotScales::Scale *scale = m_scales.labelled(static_cast<int>(i)))
             content.values[i] = {scale->unit, scale->scaler.range(), true};
@@ -126,6 +144,20 @@ void PlotChart::paintTraces(QPainter &painter, const TimeView &view, const QRect
     painter.drawImage(area, m_image.paint(items, view, height));
 }
 
+void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
+{
+    const QColor color = colors(palette()).dimmed;
+    constexpr qreal IconSize = 32;
+    const QRectF text =
+        painter.boundingRect(area.adjusted(24, 8, -24, -8), Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+    painter.fillRect(text.adjusted(-16, -8, 16, 8), palette().color(QPalette::Base)); // no grid through the words
+    painter.setPen(color);
+    painter.drawText(text, Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+    const QRectF icon(area.center().x() - IconSize / 2, text.top() - IconSize - 16, IconSize, IconSize);
+    if (icon.top() > area.top())
+        paintIcon(&painter, icon, QStringLiteral("chart"), color);
+}
+
 void PlotChart::paintEvent(QPaintEvent *)
 {
     const QRectF area = plotArea();
@@ -137,7 +169,7 @@ void PlotChart::paintEvent(QPaintEvent *)
     painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
     if (m_traces.empty()) {
         painter.setPen(colors(palette()).dimmed);
-        painter.drawText(area.adjusted(24, 8, -24, -8), Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+        paintEmpty(painter, area);
     } else {
         paintTraces(painter, now, area);
     }
@@ -242,12 +274,8 @@ void PlotChart::keyPressEvent(QKeyEvent *event)
     case Qt::Key_Left: emit panned(-tenth); return;
     case Qt::Key_Right: emit panned(tenth); return;
     case Qt::Key_Plus:
-    case Qt::Key_Equal:
-        values ? zoomValues(1, centre.y()) : zoomTime(1, centre.x());
-        return;
-    case Qt::Key_Minus:
-        values ? zoomValues(-1, centre.y()) : zoomTime(-1, centre.x());
-        return;
+    case Qt::Key_Equal: values ? zoomValues(1, centre.y()) : zoomTime(1, centre.x()); return;
+    case Qt::Key_Minus: values ? zoomValues(-1, centre.y()) : zoomTime(-1, centre.x()); return;
     case Qt::Key_Home: emit fitRequested(); return;
     default: QWidget::keyPressEvent(event);
     }

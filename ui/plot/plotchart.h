@@ -28,6 +28,10 @@ public:
     void setNewest(LineTime newest);
     void setAutoscale(bool on);
     bool isAutoscale() const { return m_autoscale; }
+    /// Room for labels left and right: several charts below each other keep it alike, so that their times stand in
+    /// line.
+    std::array<bool, 2> labelledSides() const;
+    void setLabelRoom(std::array<bool, 2> room);
     void setEmptyText(const QString &text);
     void setMarked(bool marked); ///< outlined: a drop would go here
 
@@ -38,7 +42,7 @@ public:
     QSize minimumSizeHint() const override { return {160, 96}; }
 
 signals:
-    void spanStepped(int steps); ///< live: the wheel; positive is longer
+    void spanStepped(int steps);                            ///< live: the wheel; positive is longer
     void zoomed(double factor, dynascope::LineTime around); ///< paused
     void panned(dynascope::LineTime by);
     void autoscaleChanged(bool on); ///< the person zoomed values
@@ -58,7 +62,9 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
+    std::array<bool, 2> labelRoom() const;
     ChartFrame::Content frameContent(const TimeView &view) const;
+    void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
     void zoomValues(int steps, qreal y);
     void zoomTime(int steps, qreal x); ///< positive: closer
@@ -73,6 +79,7 @@ private:
     int m_emphasized = -1;
     bool m_autoscale = true;
     bool m_marked = false;
+    std::array<bool, 2> m_labelRoom{};
     bool m_showFocus = false; ///< it came by key
     std::optional<QPointF> m_cursor;
     std::optional<QPointF> m_dragFrom;

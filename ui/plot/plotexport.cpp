@@ -46,7 +46,9 @@ const Reader *earliest(const std::vector<Reader> &readers)
 Error notWritten(const QString &path, const QString &reason)
 {
     return {ErrorKind::BadFile,
-            QCoreApplication::translate("PlotExport", "%1 could not be written: %2").arg(QDir::toNativeSeparators(path), reason), 0};
+        QCoreApplication::translate("PlotExport", "%1 could not be written: %2")
+            .arg(QDir::toNativeSeparators(path), reason),
+        0};
 }
 
 } // namespace
@@ -58,9 +60,11 @@ void writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, L
     for (const TraceData &trace : traces) {
         if (!trace.visible)
             continue;
-        line += ',' + quoted(trace.unit.isEmpty() ? trace.label : QStringLiteral("%1 (%2)").arg(trace.label, trace.unit));
+        line +=
+            ',' + quoted(trace.unit.isEmpty() ? trace.label : QStringLiteral("%1 (%2)").arg(trace.label, trace.unit));
         const bool hasAny = trace.isDrawn();
-        readers.push_back({&trace, hasAny ? trace.history->indexAt(from) : 0, hasAny ? trace.history->indexAt(end) : 0});
+        readers.push_back(
+            {&trace, hasAny ? trace.history->indexAt(from) : 0, hasAny ? trace.history->indexAt(end) : 0});
     }
     to.write(line + '\n');
     const Reader *first = earliest(readers);
@@ -72,7 +76,8 @@ void writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, L
             line += ',';
             if (reader.isDone() || reader.time() != now)
                 continue;
-            line += QByteArray::number(reader.trace->value(reader.trace->history->at(reader.next).raw), 'f', reader.trace->decimals);
+            line += QByteArray::number(
+                reader.trace->value(reader.trace->history->at(reader.next).raw), 'f', reader.trace->decimals);
             ++reader.next; // a second one at the same moment gets a line of its own
         }
         if (to.write(line + '\n') < 0)
@@ -104,7 +109,8 @@ Result<void> savePicture(const QString &path, const QPixmap &picture)
 
 QString suggestedFileName(const QString &suffix)
 {
-    return QStringLiteral("dynascope %1.%2").arg(QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd HH.mm.ss")), suffix);
+    return QStringLiteral("dynascope %1.%2")
+        .arg(QDateTime::currentDateTime().toString(QStringLiteral("yyyy-MM-dd HH.mm.ss")), suffix);
 }
 
 } // namespace dynascope

@@ -26,7 +26,7 @@ PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow 
     , m_model(new TraceModel(session, monitor, this))
     , m_chart(new PlotChart(window, this))
     , m_list(new TraceList(*m_model, this))
-    , m_close(new QToolButton(this))
+    , m_close(new QToolButton(m_chart))
     , m_layout(new QBoxLayout(QBoxLayout::LeftToRight, this))
 {
     setAcceptDrops(true);
@@ -65,7 +65,6 @@ void PlotPanel::updateList()
 {
     m_list->setVisible(m_model->rowCount() > 0);
     m_list->updateGeometry();
-    m_close->raise();
     refreshTraces();
 }
 
@@ -136,9 +135,6 @@ void PlotPanel::resizeEvent(QResizeEvent *event)
     m_list->setMinimumWidth(isWide ? ListWidth : 0);
     m_list->setMaximumWidth(isWide ? ListWidth : QWIDGETSIZE_MAX);
     m_list->setMaximumHeight(isWide ? QWIDGETSIZE_MAX : std::max(88, height() * 2 / 5));
-    m_close->adjustSize();
-    m_layout->activate();
-    m_close->move(m_chart->geometry().right() + 1 - m_close->width(), 0); // in the strip above the plot
 }
 
 void PlotPanel::changeEvent(QEvent *event)
@@ -150,6 +146,10 @@ void PlotPanel::changeEvent(QEvent *event)
 
 bool PlotPanel::eventFilter(QObject *watched, QEvent *event)
 {
+    if (watched == m_chart && event->type() == QEvent::Resize) {
+        m_close->adjustSize();
+        m_close->move(m_chart->width() - m_close->width(), 0); // in the strip above the plot
+    }
     if (event->type() == QEvent::FocusIn || event->type() == QEvent::MouseButtonPress)
         emit activated();
     return QFrame::eventFilter(watched, event);

@@ -24,7 +24,8 @@ struct Row {
 QString timeText(const TimeView &view, LineTime at)
 {
     const double seconds = std::chrono::duration<double>(at - view.zero).count();
-    return QCoreApplication::translate("PlotReadout", "%1 s").arg(seconds, 0, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2);
+    return QCoreApplication::translate("PlotReadout", "%1 s")
+        .arg(seconds, 0, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2);
 }
 
 } // namespace
@@ -71,14 +72,16 @@ void PlotReadout::paint(QPainter &painter) const
     qreal values = 0;
     qreal units = 0;
     for (const Row &row : rows) {
-        names = std::max(names, std::min<qreal>(text.horizontalAdvance(row.trace->label), 240));
+        names = std::max(
+            names, std::min<qreal>(text.horizontalAdvance(row.trace->label), std::min(240.0, area.width() * 0.4)));
         values = std::max(values, digits.horizontalAdvance(QString::number(row.value, 'f', row.trace->decimals)));
         units = std::max(units, text.horizontalAdvance(row.trace->unit));
     }
     const qreal width = 5 * Padding + Swatch + names + values + units;
     const qreal height = line * (static_cast<qreal>(rows.size()) + 1 + (more > 0 ? 1 : 0)) + Padding;
     const bool isLeft = x + Padding + width > area.right();
-    const QRectF box(std::round(isLeft ? x - Padding - width : x + Padding) + 0.5, area.top() + 8.5, width, height);
+    const qreal boxLeft = isLeft ? std::max(x - Padding - width, area.left() + 2) : x + Padding;
+    const QRectF box(std::round(boxLeft) + 0.5, area.top() + 8.5, width, height);
     QColor back = palette.color(QPalette::ToolTipBase);
     back.setAlphaF(0.94F);
     painter.setPen(theme.border);
@@ -93,19 +96,22 @@ void PlotReadout::paint(QPainter &painter) const
         painter.fillRect(QRectF(slot.left(), slot.center().y() - 1.5, Swatch, 3), row.trace->color);
         painter.setPen(palette.color(QPalette::ToolTipText));
         const QRectF name(slot.left() + Swatch + Padding, slot.top(), names, line);
-        painter.drawText(name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->label, Qt::ElideMiddle, names + 1));
+        painter.drawText(
+            name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->label, Qt::ElideMiddle, names + 1));
         const QFont font = painter.font();
         painter.setFont(numbers);
-        painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - Padding / 2, line), Qt::AlignVCenter | Qt::AlignRight,
-                         QString::number(row.value, 'f', row.trace->decimals));
+        painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - Padding / 2, line),
+            Qt::AlignVCenter | Qt::AlignRight, QString::number(row.value, 'f', row.trace->decimals));
         painter.setFont(font);
         painter.setPen(theme.dimmed);
-        painter.drawText(QRectF(slot.right() - units, slot.top(), units, line), Qt::AlignVCenter | Qt::AlignLeft, row.trace->unit);
+        painter.drawText(
+            QRectF(slot.right() - units, slot.top(), units, line), Qt::AlignVCenter | Qt::AlignLeft, row.trace->unit);
     }
     if (more > 0) {
         slot.translate(0, line);
         painter.setPen(theme.dimmed);
-        painter.drawText(slot, Qt::AlignVCenter | Qt::AlignLeft, QCoreApplication::translate("PlotReadout", "and %n more", nullptr, more));
+        painter.drawText(slot, Qt::AlignVCenter | Qt::AlignLeft,
+            QCoreApplication::translate("PlotReadout", "and %n more", nullptr, more));
     }
     painter.setRenderHint(QPainter::Antialiasing, false);
 }

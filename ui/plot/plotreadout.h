@@ -14,8 +14,8 @@ struct PlotReadout {
     std::span<const TraceData> traces;
     const PlotScales &scales;
     const TimeView &view;
-    QRectF area;    ///< of the plot
-    qreal x = 0;    ///< of the line
+    QRectF area; ///< of the plot
+    qreal x = 0; ///< of the line
     QPalette palette;
 
     void paint(QPainter &painter) const;

@@ -17,9 +17,9 @@ constexpr int MostTraces = 256;
 
 QJsonObject toJson(const PlotState::Trace &trace)
 {
-    return {{QStringLiteral("line"), trace.line},   {QStringLiteral("model"), trace.modelNumber},
-            {QStringLiteral("id"), trace.id},       {QStringLiteral("field"), trace.field},
-            {QStringLiteral("color"), trace.color}, {QStringLiteral("visible"), trace.visible}};
+    return {{QStringLiteral("line"), trace.line}, {QStringLiteral("model"), trace.modelNumber},
+        {QStringLiteral("id"), trace.id}, {QStringLiteral("field"), trace.field},
+        {QStringLiteral("color"), trace.color}, {QStringLiteral("visible"), trace.visible}};
 }
 
 PlotState::Trace traceFromJson(const QJsonObject &object)
@@ -51,9 +51,8 @@ QByteArray PlotState::toBytes() const
             traces.append(toJson(trace));
         all.append(traces);
     }
-    const QJsonObject object{{QStringLiteral("span"), spanSeconds},
-                             {QStringLiteral("autoscale"), autoscale},
-                             {QStringLiteral("panels"), all}};
+    const QJsonObject object{{QStringLiteral("span"), spanSeconds}, {QStringLiteral("autoscale"), autoscale},
+        {QStringLiteral("panels"), all}};
     return QJsonDocument(object).toJson(QJsonDocument::Compact);
 }
 

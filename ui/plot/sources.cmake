@@ -3,6 +3,7 @@ target_sources(dynascope_ui PRIVATE
     plot/chartframe.cpp plot/chartframe.h
     plot/columncache.cpp plot/columncache.h
     plot/columnraster.cpp plot/columnraster.h
+    plot/historymark.h
     plot/plotarea.cpp plot/plotarea.h
     plot/plotbar.cpp plot/plotbar.h
     plot/plotchart.cpp plot/plotchart.h

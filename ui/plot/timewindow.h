@@ -30,8 +30,8 @@ public:
 private:
     LineTime m_span = std::chrono::seconds(10);
     bool m_live = true;
-    LineTime m_zero{};       ///< paused: the newest sample then
-    LineTime m_end{};        ///< paused: the view's right edge
+    LineTime m_zero{}; ///< paused: the newest sample then
+    LineTime m_end{};  ///< paused: the view's right edge
     LineTime m_pausedSpan{};
 };
 

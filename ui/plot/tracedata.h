@@ -28,10 +28,10 @@ struct TraceData {
 /// A stretch of time cut into pixel columns. Columns are counted from the clock's zero, so a column keeps its samples
 /// while the view moves: nothing flickers, and what was computed once can be kept.
 struct TimeView {
-    LineTime step{1};              ///< width of a column
+    LineTime step{1}; ///< width of a column
     std::int64_t firstColumn = 0;
     int columns = 0;
-    LineTime zero{};               ///< what the time axis calls 0 s
+    LineTime zero{};                  ///< what the time axis calls 0 s
     LineTime until = LineTime::max(); ///< paused: what came later isn't shown
 
     LineTime from() const { return step * firstColumn; }

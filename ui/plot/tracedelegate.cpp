@@ -6,7 +6,6 @@
 #include "ui/plot/tracemodel.h"
 
 #include <QAbstractItemView>
-#include <QApplication>
 #include <QHelpEvent>
 #include <QMouseEvent>
 #include <QPainter>
@@ -47,19 +46,19 @@ QSize TraceDelegate::sizeHint(const QStyleOptionViewItem &option, const QModelIn
 
 void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
 {
-    QStyleOptionViewItem background(option);
-    background.text.clear();
-    background.features = QStyleOptionViewItem::None;
-    const QStyle *style = option.widget ? option.widget->style() : QApplication::style();
-    style->drawPrimitive(QStyle::PE_PanelItemViewItem, &background, painter, option.widget);
-
     painter->save();
     const ThemeColors &theme = colors(option.palette);
     const bool isSelected = option.state.testFlag(QStyle::State_Selected);
+    const bool isHot = option.state.testFlag(QStyle::State_MouseOver) || isSelected;
+    if (isHot) { // a tint only: the trace's own colour must show on it
+        QColor tint = theme.accent;
+        tint.setAlphaF(isSelected ? 0.18F : 0.07F);
+        painter->fillRect(option.rect, tint);
+    }
     const bool isVisible = index.data(Qt::CheckStateRole).toInt() == Qt::Checked;
     const bool isGone = index.data(TraceModel::GoneRole).toBool();
-    const QColor text = isSelected ? option.palette.color(QPalette::HighlightedText) : option.palette.color(QPalette::Text);
-    const QColor dimmed = isSelected ? text : theme.dimmed;
+    const QColor text = option.palette.color(QPalette::Text);
+    const QColor dimmed = theme.dimmed;
     const QRect row = option.rect;
 
     QColor swatch = traceColor(index.data(TraceModel::ColorIndexRole).toInt(), option.palette);
@@ -82,8 +81,8 @@ void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
         value = QStringLiteral("–");
 
     // The unit has a place of its own, wide enough for most, so that numbers stand under each other.
-    const int unitWidth = qMax(QFontMetrics(small).horizontalAdvance(QStringLiteral("mA")),
-                               QFontMetrics(small).horizontalAdvance(unit));
+    const int unitWidth =
+        qMax(QFontMetrics(small).horizontalAdvance(QStringLiteral("mA")), QFontMetrics(small).horizontalAdvance(unit));
     const int valueWidth = QFontMetrics(numbers).horizontalAdvance(value);
     const QRect valueRect(right - unitWidth - 4 - valueWidth, top, valueWidth, firstHeight);
     painter->setFont(numbers);
@@ -97,25 +96,25 @@ void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
     painter->setPen(isGone || !isVisible ? dimmed : text);
     const QRect nameRect(left, top, qMax(0, valueRect.left() - Margin - left), firstHeight);
     painter->drawText(nameRect, Qt::AlignLeft | Qt::AlignVCenter,
-                      QFontMetrics(option.font).elidedText(index.data(TraceModel::FieldRole).toString(), Qt::ElideMiddle, nameRect.width()));
+        QFontMetrics(option.font)
+            .elidedText(index.data(TraceModel::FieldRole).toString(), Qt::ElideMiddle, nameRect.width()));
     painter->setFont(small);
     painter->setPen(dimmed);
     const QRect deviceRect(left, top + firstHeight, right - left, QFontMetrics(small).height());
     QString device = index.data(TraceModel::DeviceRole).toString();
-    if (isGone)
-        device = tr("%1 · gone").arg(device);
+    if (const QString note = index.data(TraceModel::NoteRole).toString(); !note.isEmpty())
+        device += QStringLiteral(" · ") + note;
     painter->drawText(deviceRect, Qt::AlignLeft | Qt::AlignVCenter,
-                      QFontMetrics(small).elidedText(device, Qt::ElideMiddle, deviceRect.width()));
+        QFontMetrics(small).elidedText(device, Qt::ElideMiddle, deviceRect.width()));
 
-    const bool isHot = option.state.testFlag(QStyle::State_MouseOver) || isSelected;
     paintIcon(painter, eyeRect(row), isVisible ? QStringLiteral("eye") : QStringLiteral("eye-off"), dimmed);
     if (isHot)
         paintIcon(painter, removeRect(row), QStringLiteral("close"), dimmed);
     painter->restore();
 }
 
-bool TraceDelegate::editorEvent(QEvent *event, QAbstractItemModel *model, const QStyleOptionViewItem &option,
-                                const QModelIndex &index)
+bool TraceDelegate::editorEvent(
+    QEvent *event, QAbstractItemModel *model, const QStyleOptionViewItem &option, const QModelIndex &index)
 {
     if (event->type() == QEvent::KeyPress)
         return QStyledItemDelegate::editorEvent(event, model, option, index);
@@ -128,15 +127,15 @@ bool TraceDelegate::editorEvent(QEvent *event, QAbstractItemModel *model, const 
     if (event->type() == QEvent::MouseButtonRelease) {
         if (isEye)
             model->setData(index, index.data(Qt::CheckStateRole).toInt() == Qt::Checked ? Qt::Unchecked : Qt::Checked,
-                           Qt::CheckStateRole);
+                Qt::CheckStateRole);
         else if (isRemove)
             emit removeRequested(index);
     }
     return isEye || isRemove;
 }
 
-bool TraceDelegate::helpEvent(QHelpEvent *event, QAbstractItemView *view, const QStyleOptionViewItem &option,
-                              const QModelIndex &index)
+bool TraceDelegate::helpEvent(
+    QHelpEvent *event, QAbstractItemView *view, const QStyleOptionViewItem &option, const QModelIndex &index)
 {
     const bool isEye = eyeRect(option.rect).contains(event->pos());
     if (event->type() != QEvent::ToolTip || (!isEye && !removeRect(option.rect).contains(event->pos())))

@@ -19,11 +19,30 @@ public:
         bool isOnTop = false;
     };
 
-    /// As wide as the view has columns. The first item lies on top. Items keep what they computed by their position.
+    /// As wide as the view has columns. The first item lies on top. While a view moves on and nothing else changes,
+    /// only the columns that new samples touch are painted; the rest is shifted.
     const QImage &paint(std::span<const Item> items, const TimeView &view, int height);
 
 private:
-    void paintItem(const Item &item, ColumnCache &cache, const TimeView &view);
+    /// What an item looked like when it was painted last.
+    struct Painted {
+        const History *history = nullptr;
+        HistoryMark mark;
+        double scale = 0, offset = 0;
+        QRgb color = 0;
+        bool isDrawn = false;
+        bool isOnTop = false;
+        bool asLines = false; ///< each sample for itself
+        bool hasDots = false;
+        float thickness = 0;
+        AxisRange range;
+
+        Painted(const Item &item, const TimeView &view, const Painted *before);
+        bool looksAs(const Painted &other) const;
+    };
+
+    int firstToPaint(std::span<const Painted> now, const TimeView &view, int height) const;
+    void paintItem(const Item &item, const Painted &how, ColumnCache &cache, const TimeView &view);
     void paintColumns(const Item &item, std::span<const History::Column> columns);
     void paintLines(const Item &item, const TimeView &view, std::size_t first, std::size_t last);
     void strokePath(float thickness);
@@ -41,7 +60,10 @@ private:
 
     ColumnRaster m_raster;
     std::vector<ColumnCache> m_caches;
-    std::vector<PathColumn> m_path;
+    std::vector<PathColumn> m_path; ///< begins with the column before the first
+    std::vector<Painted> m_painted;
+    TimeView m_view; ///< as painted last
+    int m_first = 0; ///< the first column that is painted this time
 };
 
 } // namespace dynascope

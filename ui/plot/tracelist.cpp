@@ -13,9 +13,7 @@
 
 namespace dynascope {
 
-TraceList::TraceList(TraceModel &model, QWidget *parent)
-    : QListView(parent)
-    , m_model(model)
+TraceList::TraceList(TraceModel &model, QWidget *parent) : QListView(parent), m_model(model)
 {
     auto *delegate = new TraceDelegate(this);
     setItemDelegate(delegate);
@@ -23,12 +21,13 @@ TraceList::TraceList(TraceModel &model, QWidget *parent)
     setSelectionMode(ExtendedSelection);
     setFrameShape(NoFrame);
     setMouseTracking(true);
+    viewport()->setAutoFillBackground(false); // one surface with the chart
     setUniformItemSizes(true);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setVerticalScrollMode(ScrollPerPixel);
     setAccessibleName(tr("Traces"));
     connect(delegate, &TraceDelegate::removeRequested, this,
-            [this](const QModelIndex &index) { emit removeRequested({index.row()}); });
+        [this](const QModelIndex &index) { emit removeRequested({index.row()}); });
 }
 
 QSize TraceList::sizeHint() const
@@ -70,14 +69,15 @@ void TraceList::showMenu(const QPoint &at)
     auto *menu = new QMenu(this);
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->addAction(icon(isAnyVisible ? QStringLiteral("eye-off") : QStringLiteral("eye")),
-                    isAnyVisible ? tr("&Hide") : tr("&Show"), this, [this, rows, isAnyVisible] { setShown(rows, !isAnyVisible); });
+        isAnyVisible ? tr("&Hide") : tr("&Show"), this, [this, rows, isAnyVisible] { setShown(rows, !isAnyVisible); });
     menu->addAction(tr("Show &only this"), this, [this, rows] { showOnly(rows); });
     QList<int> all;
     for (int row = 0; row < m_model.rowCount(); ++row)
         all.append(row);
     menu->addAction(tr("Show &all"), this, [this, all] { setShown(all, true); });
     menu->addSeparator();
-    menu->addAction(icon(QStringLiteral("close")), tr("&Remove from the plot"), this, [this, rows] { emit removeRequested(rows); });
+    menu->addAction(
+        icon(QStringLiteral("close")), tr("&Remove from the plot"), this, [this, rows] { emit removeRequested(rows); });
     menu->addAction(tr("Remove all"), this, [this, all] { emit removeRequested(all); });
     menu->popup(at);
 }
@@ -96,7 +96,8 @@ void TraceList::keyPressEvent(QKeyEvent *event)
 
 void TraceList::setShown(const QList<int> &rows, bool visible)
 {
-    // By row, not by trace: the menu is modal to the list, nothing else removes meanwhile but a device, which leaves rows.
+    // By row, not by trace: the menu is modal to the list, nothing else removes meanwhile but a device, which leaves
+    // rows.
     for (const int row : rows) {
         if (row < m_model.rowCount())
             m_model.setVisible(row, visible);

@@ -9,9 +9,7 @@
 namespace dynascope {
 
 TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent)
-    : QAbstractListModel(parent)
-    , m_session(session)
-    , m_monitor(monitor)
+    : QAbstractListModel(parent), m_session(session), m_monitor(monitor)
 {
     connect(&session, &Session::deviceAboutToBeRemoved, this, &TraceModel::onDeviceGone);
 }
@@ -53,6 +51,12 @@ void TraceModel::describe(Trace &trace) const
     trace.scale = physical(effective, resolution, 1).value - zero.value;
     trace.decimals = zero.decimals;
     trace.unit = zero.unit;
+}
+
+bool TraceModel::isSilent(const Trace &trace) const
+{
+    const Device *device = m_session.device(trace.watch.device);
+    return device && device->state() == Device::State::Silent;
 }
 
 bool TraceModel::add(const Watch &watch)
@@ -131,8 +135,7 @@ std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
         data.unit = trace.unit;
         data.color = traceColor(trace.color, palette);
         data.visible = trace.visible;
-        const Device *device = m_session.device(trace.watch.device);
-        data.dimmed = trace.gone || !device || device->state() == Device::State::Silent;
+        data.dimmed = trace.gone || isSilent(trace);
         traces.push_back(std::move(data));
     }
     return traces;
@@ -183,10 +186,8 @@ QVariant TraceModel::data(const QModelIndex &index, int role) const
     case DeviceRole: return trace.device;
     case ValueRole: return trace.value;
     case UnitRole: return trace.unit;
-    case GoneRole: {
-        const Device *device = m_session.device(trace.watch.device);
-        return trace.gone || !device || device->state() == Device::State::Silent;
-    }
+    case GoneRole: return trace.gone || isSilent(trace);
+    case NoteRole: return trace.gone ? tr("gone") : isSilent(trace) ? tr("silent") : QString();
     default: return {};
     }
 }

@@ -8,8 +8,8 @@
 
 namespace dynascope {
 
-/// The traces of one panel: a field of a device each, with colour and live value. Follows a device through changes of ID
-/// and baud rate; a trace whose device goes stays, dimmed, until a person removes it.
+/// The traces of one panel: a field of a device each, with colour and live value. Follows a device through changes of
+/// ID and baud rate; a trace whose device goes stays, dimmed, until a person removes it.
 class TraceModel : public QAbstractListModel
 {
     Q_OBJECT
@@ -21,7 +21,8 @@ public:
         DeviceRole,                    ///< "XM430-W350 #1"
         ValueRole,                     ///< "180.00"; empty where nothing is known
         UnitRole,
-        GoneRole,
+        GoneRole, ///< its device doesn't answer
+        NoteRole, ///< why, in a word or two
     };
 
     TraceModel(Session &session, const Monitor &monitor, QObject *parent = nullptr);
@@ -62,6 +63,7 @@ private:
     };
 
     void describe(Trace &trace) const;
+    bool isSilent(const Trace &trace) const;
     void updateDevice(Device *device);
     void onDeviceGone(Device *device);
     int freeColor() const;

@@ -120,7 +120,7 @@ HelpPanel::HelpPanel(QWidget *parent)
 void HelpPanel::setFolded(bool folded)
 {
     m_folded = folded;
-    m_area->setVisible(!folded);
+    m_area->setVisible(!folded && !m_shown.isEmpty());
     m_fold->setIcon(icon(folded ? QStringLiteral("chevron-up") : QStringLiteral("chevron-down"), IconTint::Dimmed));
     m_fold->setToolTip(folded ? tr("Show what the register is for") : tr("Fold this to one line"));
 }
@@ -131,10 +131,12 @@ void HelpPanel::showCell(const QModelIndex &cell)
     if (!field) {
         m_shown.clear();
         m_name->setText(tr("No register selected"));
-        m_facts->clear();
-        m_text->setText(tr("Select a row to read what the register is for."));
+        m_facts->setText(tr("Select a row to read what the register is for."));
+        m_text->clear();
+        m_area->hide(); // the room belongs to the table until there is something to say
         return;
     }
+    m_area->setVisible(!m_folded);
     const auto effective = cell.data(EffectiveRole).value<EffectiveField>();
     const int resolution = cell.data(ResolutionRole).toInt();
     QStringList lines;

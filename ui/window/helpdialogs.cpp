@@ -83,9 +83,10 @@ void showAbout(QMainWindow &window)
     box->setTextFormat(Qt::PlainText);
     const QString version = QCoreApplication::applicationVersion();
     box->setText(version.isEmpty() ? tr("Dynascope") : tr("Dynascope %1").arg(version));
-    box->setInformativeText(tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
-                               "Free software under the GNU General Public License, version 3 or later. It comes without any "
-                               "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
+    box->setInformativeText(
+        tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
+           "Free software under the GNU General Public License, version 3 or later. It comes without any "
+           "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
     box->open();
 }
 

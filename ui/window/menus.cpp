@@ -26,7 +26,8 @@ Menus::Menus(QMainWindow &window, const std::vector<QAction *> &deviceActions, L
     setConnected(false, false, false);
 }
 
-QAction *Menus::add(QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName)
+QAction *Menus::add(
+    QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName)
 {
     QAction *action = menu->addAction(text);
     action->setObjectName(name);
@@ -50,7 +51,8 @@ void Menus::makeFileMenu()
     menu->addSeparator();
     m_scan = add(menu, QStringLiteral("scanAction"), tr("&Scan"), QStringLiteral("Ctrl+R"), QStringLiteral("scan"));
     connect(m_scan, &QAction::triggered, this, &Menus::scanRequested);
-    m_scanOptions = add(menu, QStringLiteral("scanOptionsAction"), tr("Scan &options…"), QStringLiteral("Ctrl+Shift+R"));
+    m_scanOptions =
+        add(menu, QStringLiteral("scanOptionsAction"), tr("Scan &options…"), QStringLiteral("Ctrl+Shift+R"));
     connect(m_scanOptions, &QAction::triggered, this, &Menus::scanOptionsRequested);
     menu->addSeparator();
     QAction *quit = add(menu, QStringLiteral("quitAction"), tr("&Quit"), QStringLiteral("Ctrl+Q"));
@@ -62,7 +64,8 @@ void Menus::fillRecent(QMenu *menu)
 {
     menu->clear();
     for (const QString &port : Connector::recentPorts())
-        connect(menu->addAction(portText(port)), &QAction::triggered, this, [this, port] { emit connectRequested(port); });
+        connect(
+            menu->addAction(portText(port)), &QAction::triggered, this, [this, port] { emit connectRequested(port); });
     if (menu->isEmpty())
         menu->addAction(tr("None yet"))->setEnabled(false);
 }
@@ -85,8 +88,8 @@ void Menus::makeViewMenu(LayoutManager &layout)
     menu->addSeparator();
 
     auto *places = new QActionGroup(this);
-    QAction *right = add(menu, QStringLiteral("plotsRightAction"), tr("Plots at the &right"), QStringLiteral("Ctrl+Alt+Right"),
-                         QStringLiteral("layout-right"));
+    QAction *right = add(menu, QStringLiteral("plotsRightAction"), tr("Plots at the &right"),
+        QStringLiteral("Ctrl+Alt+Right"), QStringLiteral("layout-right"));
     QAction *below = add(menu, QStringLiteral("plotsBelowAction"), tr("Plots &below"), QStringLiteral("Ctrl+Alt+Down"),
                          QStringLiteral("layout-below"));
     for (QAction *action : {right, below}) {
@@ -117,7 +120,8 @@ void Menus::makeDeviceMenu(const std::vector<QAction *> &actions)
     QMenu *menu = m_window.menuBar()->addMenu(tr("&Device"));
     menu->setToolTipsVisible(true);
     // Esc is caught by a filter that works in editors and dialogs too; a shortcut here would only be in its way.
-    QAction *stop = add(menu, QStringLiteral("stopAction"), tr("STOP, torque off everywhere\tEsc"), {}, QStringLiteral("stop"));
+    QAction *stop =
+        add(menu, QStringLiteral("stopAction"), tr("STOP, torque off everywhere\tEsc"), {}, QStringLiteral("stop"));
     connect(stop, &QAction::triggered, this, &Menus::stopRequested);
     menu->addSeparator();
     for (QAction *action : actions) {

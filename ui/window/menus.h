@@ -35,7 +35,8 @@ signals:
     void stopRequested();
 
 private:
-    QAction *add(QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
+    QAction *add(
+        QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
     void makeFileMenu();
     void makeViewMenu(LayoutManager &layout);
     void makeDeviceMenu(const std::vector<QAction *> &actions);

@@ -62,7 +62,8 @@ void Outcomes::onStop()
         m_stopBar.clear();
         return;
     }
-    const QString text = tr("STOP. %1 Until it is released nothing can be moved from here.").arg(sentence(stop.report()));
+    const QString text =
+        tr("STOP. %1 Until it is released nothing can be moved from here.").arg(sentence(stop.report()));
     if (m_stopBar.text() == text)
         return;
     m_stopBar.post({stop.isConfirmed() ? MessageKind::Warning : MessageKind::Error, text, tr("Release STOP"),

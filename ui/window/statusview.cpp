@@ -70,7 +70,8 @@ void StatusView::setDeviceCount(int present, int parked)
 void StatusView::update()
 {
     const bool open = m_line && m_line->state() == BusThread::State::Open;
-    m_name->setText(m_line ? QStringLiteral("%1 · %2").arg(portText(m_line->name()), lineStateText(*m_line)) : tr("No line is open"));
+    m_name->setText(m_line ? QStringLiteral("%1 · %2").arg(portText(m_line->name()), lineStateText(*m_line))
+                           : tr("No line is open"));
     const QString none = QStringLiteral("–");
     m_rate->setText(open && m_line->cycleRate() > 0 ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
     m_load->setText(open ? tr("%1 %").arg(qRound(m_line->busLoad() * 100)) : none);

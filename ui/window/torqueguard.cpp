@@ -22,7 +22,8 @@ TorqueGuard::TorqueGuard(const Workbench &workbench, QWidget *window)
 
 void TorqueGuard::follow(Device *device)
 {
-    connect(device, &Device::fieldsChanged, this, [this, device](int first, int last) { onFields(device, first, last); });
+    connect(
+        device, &Device::fieldsChanged, this, [this, device](int first, int last) { onFields(device, first, last); });
 }
 
 void TorqueGuard::onFields(Device *device, int first, int last)
@@ -69,10 +70,10 @@ bool TorqueGuard::mayClose()
     for (const Device *device : devices)
         names << device->displayName();
     auto *box = new QMessageBox(QMessageBox::Question, tr("Devices under torque"),
-                                tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
-                                    .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
-                                                           : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
-                                QMessageBox::Cancel, m_window);
+        tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
+            .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
+                                   : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
+        QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("torqueBox"));
     box->setAttribute(Qt::WA_DeleteOnClose);
     QPushButton *leave = box->addButton(tr("Leave it on and close"), QMessageBox::AcceptRole);
@@ -87,10 +88,11 @@ bool TorqueGuard::mayClose()
     connect(leave, &QPushButton::clicked, this, agree);
     connect(off, &QPushButton::clicked, this, [this, agree] {
         // A failure is said in the message bar, and the window stays.
-        m_workbench.commands.setTorque(holding(), false, [here = QPointer<TorqueGuard>(this), agree](const Result<void> &result) {
-            if (here && result)
-                agree();
-        });
+        m_workbench.commands.setTorque(
+            holding(), false, [here = QPointer<TorqueGuard>(this), agree](const Result<void> &result) {
+                if (here && result)
+                    agree();
+            });
     });
     box->open();
     return false;

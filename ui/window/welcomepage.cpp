@@ -99,9 +99,9 @@ void WelcomePage::refresh()
     m_simulate->setVisible(std::ranges::any_of(all, isSimulated));
     std::erase_if(all, isSimulated);
     m_hint->setText(all.empty()
-                        ? tr("No serial port was found. Plug in the adapter (U2D2 or another), and it appears here.")
-                        : tr("A port that can't be opened for lack of permission: become a member of the group dialout, "
-                             "then log in again."));
+            ? tr("No serial port was found. Plug in the adapter (U2D2 or another), and it appears here.")
+            : tr("A port that can't be opened for lack of permission: become a member of the group dialout, "
+                 "then log in again."));
     if (all.size() > MostPorts)
         all.resize(MostPorts);
     if (all == m_shown)
@@ -112,7 +112,8 @@ void WelcomePage::refresh()
         delete item;
     }
     for (const PortInfo &port : m_shown) {
-        const QString text = port.description.isEmpty() ? port.name : QStringLiteral("%1   %2").arg(port.name, port.description);
+        const QString text =
+            port.description.isEmpty() ? port.name : QStringLiteral("%1   %2").arg(port.name, port.description);
         QPushButton *button = makeButton(QStringLiteral("welcomePort"), QStringLiteral("plug"), QString());
         button->setText(button->fontMetrics().elidedText(text, Qt::ElideMiddle, ButtonWidth - 60));
         button->setToolTip(tr("Connect to %1").arg(text));
