@@ -2,13 +2,11 @@
 # Programs, desktop entry, icon, and the udev rule that makes servo adapters usable and quick.
 include(GNUInstallDirs)
 
-# udev reads /etc and /usr/lib (or /lib), wherever else we are installed; packages set this.
+# udev reads /usr/lib, /usr/local/lib and /etc; for another prefix say where it is to go.
 set(DYNASCOPE_UDEV_DIR "lib/udev/rules.d" CACHE STRING "Where the udev rule goes, under the install prefix if relative")
 
-if(TARGET dxl)
-    install(TARGETS dxl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
-if(TARGET dynascope)
+install(TARGETS dxl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(DYNASCOPE_WINDOW)
     install(TARGETS dynascope RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(FILES ${PROJECT_SOURCE_DIR}/resources/dynascope.desktop
         DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)

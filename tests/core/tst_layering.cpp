@@ -68,10 +68,14 @@ constexpr std::array reserved{
     Reserved{"^(unistd|fcntl|termios|poll|pty|signal|csignal|pthread|sys/.*|asm/.*|linux/.*)(\\.h)?$", "_posix\\.(h|cpp)$"},
 };
 
+/// `wildcard` holds one * at most.
 bool fits(const QString &wildcard, const QString &path)
 {
-    const QString pattern = QRegularExpression::escape(wildcard).replace(u"\\*"_s, u".*"_s);
-    return QRegularExpression(QRegularExpression::anchoredPattern(pattern)).match(path).hasMatch();
+    const qsizetype star = wildcard.indexOf(u'*');
+    if (star < 0)
+        return path == wildcard;
+    return path.size() >= wildcard.size() - 1 && path.startsWith(wildcard.left(star))
+        && path.endsWith(wildcard.mid(star + 1));
 }
 
 QStringList sourceFiles(const QStringList &folders)
