@@ -121,7 +121,7 @@ Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignme
         else if (on && locked(assignment)) {
             return failure(ErrorKind::InvalidArgument,
                            QStringLiteral("%1: %2 is in the EEPROM area, which is locked while torque is on; write "
-                                          "torque_enable=off first. Nothing was written")
+                                          "torque_enable=off first; nothing was written")
                                .arg(device.name(), assignment.field->name));
         }
     }

@@ -111,7 +111,7 @@ void Device::take(const PollValue &value)
     for (; field != fields.end() && field->end() <= end; ++field) {
         const auto index = static_cast<int>(field - fields.begin());
         FieldValue &now = m_values[static_cast<std::size_t>(index)];
-        if (now.raw && value.at < now.at)
+        if (now.raw && now.state != FieldState::Stale && value.at < now.at)
             continue; // overtaken: a batch that was polled before a read-back
         const std::int64_t raw = rawFromBytes(*field, bytes.subspan(static_cast<std::size_t>(field->address - begin)));
         // A failed write stays to be seen until the value moves or somebody tries again.

@@ -66,6 +66,7 @@ void LineSession::startThread(const QString &name, int baudRate)
 {
     closeThread();
     m_thread.reset();
+    ++m_generation;
     m_thread = std::make_unique<BusThread>(m_factory, name, baudRate);
     m_sinceMeasured.start();
     m_busyAtMeasure = {};

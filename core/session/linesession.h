@@ -26,6 +26,7 @@ public:
 
     QString name() const { return m_thread->name(); }
     BusThread &bus() const { return *m_thread; } ///< another one after reopen()
+    int generation() const { return m_generation; } ///< counts the bus threads; a new one may stand at the old address
     void reopen();                               ///< a lost line once more, keeping its devices
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
@@ -71,6 +72,7 @@ private:
     std::unique_ptr<BusThread> m_thread;
     std::vector<std::unique_ptr<Device>> m_devices;
     std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row
+    int m_generation = 0;
     QTimer m_rateTimer;
     QTimer m_frameTimer;
     QElapsedTimer m_sinceMeasured;

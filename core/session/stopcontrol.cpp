@@ -15,7 +15,7 @@ StopControl::StopControl(Session &session, Commands &commands, QObject *parent)
     connect(&m_prepareTimer, &QTimer::timeout, this, &StopControl::prepare);
     connect(&session, &Session::lineAdded, this, &StopControl::follow);
     connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
-        m_threads.erase(line);
+        m_generations.erase(line);
         m_waiting.erase(line);
     });
     connect(&session, &Session::deviceAdded, this, [this](Device *device) {
@@ -38,9 +38,9 @@ void StopControl::follow(LineSession *line)
 void StopControl::adopt(LineSession &line)
 {
     m_prepareTimer.start();
-    const BusThread *&known = m_threads[&line];
-    if (known != &line.bus()) {
-        known = &line.bus();
+    int &known = m_generations[&line];
+    if (known != line.generation()) {
+        known = line.generation();
         m_waiting.erase(&line); // its old thread reports no more
         connect(&line.bus(), &BusThread::stopFinished, this,
                 [this, at = &line](const std::vector<StopOutcome> &outcomes) { take(at, outcomes); });

@@ -42,8 +42,8 @@ private:
     Commands &m_commands;
     QTimer m_prepareTimer;
     bool m_active = false;
-    std::map<LineSession *, const BusThread *> m_threads; ///< whose outcomes are listened to
-    std::set<LineSession *> m_waiting;                    ///< have not reported yet
+    std::map<LineSession *, int> m_generations; ///< of the bus threads whose outcomes are listened to
+    std::set<LineSession *> m_waiting;          ///< have not reported yet
     std::map<DeviceKey, StopOutcome> m_outcomes;
     QString m_report;
 };
