@@ -19,6 +19,7 @@ public:
     bool isActive() const { return m_active; }
     /// Every known device was read back as off. Never where a line is lost or a device has no known Torque Enable.
     bool isConfirmed() const;
+    bool isVerifying() const { return !m_waiting.empty(); } ///< some line has not reported yet
     QString report() const { return m_report; } ///< one to three sentences: who is off, who is not confirmed
 
     void press();

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 using namespace dynascope;
 using namespace std::chrono_literals;
@@ -64,12 +65,13 @@ public:
         , m_makeBusy(std::move(makeBusy))
     {
         connect(&m_stop, &StopControl::changed, this, [this] {
-            if (m_stop.isActive() && m_stop.isConfirmed())
-                QTimer::singleShot(0, this, &Driver::confirmed);
+            if (m_stop.isActive() && !m_stop.isVerifying() && !std::exchange(m_ending, true))
+                QTimer::singleShot(0, this, &Driver::finished);
         });
         begin();
     }
 
+    int unconfirmed = 0;
     std::vector<double> excess; ///< ms from press to packet, less the rest of the packet in flight
 
 private:
@@ -83,8 +85,10 @@ private:
         });
     }
 
-    void confirmed()
+    void finished()
     {
+        m_ending = false;
+        unconfirmed += m_stop.isConfirmed() ? 0 : 1;
         const Seen seen = firstTorqueOff(m_server, m_press);
         if (seen.found)
             excess.push_back(std::chrono::duration<double, std::milli>(seen.afterPress - seen.inFlight).count());
@@ -102,18 +106,20 @@ private:
     LineTime m_press{};
     std::uint32_t m_random = 7;
     int m_rounds = 0;
+    bool m_ending = false;
 };
 
-void report(const char *what, std::vector<double> &excess)
+void report(const char *what, Driver &driver)
 {
+    std::vector<double> &excess = driver.excess;
     std::ranges::sort(excess);
     if (excess.empty()) {
         std::printf("STOP %s: no torque-off packet seen\n", what);
         return;
     }
     const auto at = [&](double part) { return excess[static_cast<std::size_t>(part * static_cast<double>(excess.size() - 1))]; };
-    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight)\n", what,
-                excess.size(), at(0.5), at(0.99), excess.back());
+    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight), %d not confirmed\n", what,
+                excess.size(), at(0.5), at(0.99), excess.back(), driver.unconfirmed);
 }
 
 } // namespace
@@ -152,12 +158,12 @@ int main(int argc, char **argv)
     {
         Driver driver(**server, session, stop, [] {});
         QCoreApplication::exec();
-        report("under full polling", driver.excess);
+        report("under full polling", driver);
     }
     {
         Driver driver(**server, session, stop, [&] { scanner.start(line, {{1000000, 57600, 115200}, 0, 252}); });
         QCoreApplication::exec();
-        report("during a scan", driver.excess);
+        report("during a scan", driver);
     }
     {
         const int there = 1000000;
@@ -166,6 +172,6 @@ int main(int argc, char **argv)
             commands.changeBaud(*device, device->baudRate() == there ? 2000000 : there, true);
         });
         QCoreApplication::exec();
-        report("during a change of baud", driver.excess);
+        report("during a change of baud", driver);
     }
 }
