@@ -30,7 +30,8 @@ std::size_t headerMatch(ByteView view)
 
 StatusPacket Parser::Packet::status() const
 {
-    return {id, static_cast<DeviceError>(errorField & ~AlertBit), (errorField & AlertBit) != 0, parameters};
+    return {id, static_cast<DeviceError>(errorField & ~AlertBit), (errorField & AlertBit) != 0,
+        Bytes(parameters.begin(), parameters.end())};
 }
 
 void Parser::feed(ByteView bytes)
@@ -100,24 +101,28 @@ Parser::Event Parser::takePacket(std::size_t size)
     const ByteView raw = buffered().first(size);
     const ByteView covered = raw.first(size - 2);
     if (crc16(covered) != littleEndian(raw.subspan(size - 2), 2)) {
-        Damaged damaged{Bytes(raw.begin(), raw.end())};
+        const Damaged damaged{raw};
         m_damaged = std::max(m_damaged, size);
         skip(1);
         return damaged;
     }
     Packet packet;
-    packet.raw.assign(raw.begin(), raw.end());
+    packet.raw = raw;
     packet.id = raw[IdAt];
     packet.instruction = static_cast<Instruction>(raw[HeaderSize]);
     if (packet.isFastStatus()) {
-        packet.parameters.assign(raw.begin() + HeaderSize + 1, raw.end());
+        packet.parameters = raw.subspan(HeaderSize + 1);
     } else {
-        Unstuffed unstuffed = unstuff(covered.subspan(HeaderSize));
-        const std::ptrdiff_t skipped = packet.isStatus() ? 2 : 1;
-        packet.forgotStuffing = unstuffed.forgotten;
+        ByteView body = covered.subspan(HeaderSize);
+        if (isStuffed(body)) {
+            Unstuffed unstuffed = unstuff(body);
+            packet.forgotStuffing = unstuffed.forgotten;
+            m_unstuffed = std::move(unstuffed.body);
+            body = m_unstuffed;
+        }
         if (packet.isStatus())
-            packet.errorField = unstuffed.body[1];
-        packet.parameters.assign(unstuffed.body.begin() + skipped, unstuffed.body.end());
+            packet.errorField = body[1];
+        packet.parameters = body.subspan(packet.isStatus() ? 2 : 1);
     }
     m_begin += size;
     m_damaged -= std::min(m_damaged, size);

@@ -16,24 +16,26 @@ namespace dynascope {
 class Parser
 {
 public:
+    // What an event shows of the stream is valid until the parser's next call: a cycle of polls allocates nothing.
+
     /// A whole packet with a good CRC.
     struct Packet {
         std::uint8_t id = 0;
         Instruction instruction = Instruction::Ping;
-        Bytes parameters; ///< un-stuffed; of a status packet without the error field. Of a fast reply (id FE): all
-                          ///< bytes behind the instruction byte up to and including the last CRC, never stuffed
+        ByteView parameters; ///< un-stuffed; of a status packet without the error field. Of a fast reply (id FE): all
+                             ///< bytes behind the instruction byte up to and including the last CRC, never stuffed
         std::uint8_t errorField = 0; ///< of an ordinary status packet
         bool forgotStuffing = false; ///< the sender left a header pattern unstuffed
-        Bytes raw;                   ///< as it stood on the wire
+        ByteView raw;                ///< as it stood on the wire
 
         bool isStatus() const { return instruction == Instruction::Status; }
         bool isFastStatus() const { return isStatus() && id == BroadcastId; }
         StatusPacket status() const;
-        InstructionPacket request() const { return {id, instruction, parameters}; }
+        InstructionPacket request() const { return {id, instruction, Bytes(parameters.begin(), parameters.end())}; }
     };
     /// A whole packet by its length, but its CRC is wrong. The search goes on inside it.
     struct Damaged {
-        Bytes raw;
+        ByteView raw;
     };
     /// Bytes that belong to no packet, damaged ones included.
     struct Noise {
@@ -73,6 +75,7 @@ private:
     Event takePacket(std::size_t size);
 
     Bytes m_buffer;
+    Bytes m_unstuffed; ///< of the packet told last, where it was stuffed
     std::size_t m_begin = 0; ///< what stands before has been dealt with
     std::size_t m_noise = 0; ///< skipped and not yet reported
     std::size_t m_allNoise = 0;

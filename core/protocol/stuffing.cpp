@@ -35,6 +35,16 @@ void appendStuffed(Bytes &to, ByteView body)
     }
 }
 
+bool isStuffed(ByteView body)
+{
+    PatternMatch match;
+    for (const std::uint8_t byte : body) {
+        if (match.step(byte))
+            return true;
+    }
+    return false;
+}
+
 Unstuffed unstuff(ByteView stuffed)
 {
     Unstuffed result;

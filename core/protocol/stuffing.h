@@ -9,6 +9,9 @@ namespace dynascope {
 /// it was before stuffing. Manual: "Byte stuffing".
 void appendStuffed(Bytes &to, ByteView body);
 
+/// Does `body` hold a header pattern? Where not, it stands for itself.
+bool isStuffed(ByteView body);
+
 struct Unstuffed {
     Bytes body;
     bool forgotten = false; ///< the sender left an FF FF FD bare; its bytes were kept as they came
