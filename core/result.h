@@ -18,6 +18,7 @@ enum class ErrorKind {
     DamagedCrc,      ///< a whole packet came, its CRC is wrong
     WrongId,         ///< only other devices answered
     WrongLength,     ///< a valid answer of another length than asked
+    LateAnswer,      ///< only an answer that may be an earlier request's
     Refused,         ///< the device answered with an error number, Error::number
     // The port
     PortNotFound,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/bus.h"
 
-#include "core/bus/collector.h"
 #include "core/bus/messages.h"
 #include "core/bus/remainder.h"
 #include "core/bus/timing.h"
@@ -15,144 +14,184 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr LineTime SettleLimit = 50ms;
-/// Adapters hand the last bytes to the wire a little later than computed; a change of rate must not catch them.
-constexpr LineTime DrainMargin = 2ms;
+
+LineTime times(std::size_t count, LineTime each)
+{
+    return static_cast<LineTime::rep>(count) * each;
+}
 
 } // namespace
 
 /// What one exchange waits by.
 struct Bus::Waiting {
     LineTime begin{};  ///< write start
+    LineTime sent{};   ///< t0: when the last byte of the request has left
     LineTime origin{}; ///< from when the present deadline counts: t0, or the end of the predecessor's packet
     LineTime limit{};  ///< whatever comes, not longer than this
     LineTime lastByte{};
     int highestId = MaximumId;
-    std::function<void(const Reply &)> found;
+    Collector::Found found;
 };
 
-Bus::Bus(Line &line, const std::atomic<bool> *stop) : m_line(line), m_stop(stop) { }
-
-void Bus::setTraits(std::vector<Traits> traits)
+void Bus::setTraits(const std::vector<Traits> &traits)
 {
-    m_traits = std::move(traits);
+    m_known.reset();
+    for (const Traits &device : traits) {
+        m_known.set(device.id);
+        m_traits[device.id] = device;
+    }
 }
 
 Traits Bus::traits(std::uint8_t id) const
 {
-    const auto known = std::ranges::find(m_traits, id, &Traits::id);
-    if (known != m_traits.end())
-        return *known;
+    if (m_known.test(id))
+        return m_traits[id];
     Traits fresh;
     fresh.id = id;
-    fresh.baudRate = m_line.baudRate();
+    fresh.baudRate = m_channel.line().baudRate();
     return fresh;
+}
+
+void Bus::setTap(Tap tap)
+{
+    m_tap = std::move(tap);
+    m_collector.setHeard(!m_tap ? Collector::Heard() : [this](LineTime at, ByteView bytes) {
+        m_tap(Direction::Received, at, bytes);
+    });
 }
 
 Result<ExchangeResult> Bus::exchange(const Request &request, int retries)
 {
-    if (const std::size_t size = encode(request.packet).size(); size > MaximumPacketSize)
-        return tl::unexpected(messages::packetTooLong(size, MaximumPacketSize));
-    Result<ExchangeResult> first = attempt(request);
-    if (!first || !request.isIdempotent())
-        return first;
-    ExchangeResult total = std::move(*first);
+    const Bytes packet = encode(request.packet);
+    if (packet.size() > MaximumPacketSize)
+        return tl::unexpected(messages::packetTooLong(packet.size(), MaximumPacketSize));
+    ExchangeResult total;
+    if (Result<void> done = exchangeInto(request, packet, total); !done)
+        return tl::unexpected(done.error());
+    if (!request.isIdempotent())
+        return total;
     for (int retry = 0; retry < retries; ++retry) {
         const Remainder rest = remainderOf(request, total);
         if (rest.indices.empty())
             break;
-        Result<ExchangeResult> again = attempt(rest.request);
-        if (!again)
-            return again;
-        ++m_statistics.retries;
+        ExchangeResult again;
+        m_quality.countRetry(rest.request);
+        if (Result<void> done = exchangeInto(rest.request, encode(rest.request.packet), again); !done)
+            return tl::unexpected(done.error());
         ++total.seen.retries;
-        merge(total, std::move(*again), rest.indices);
+        merge(total, std::move(again), rest.indices);
     }
     return total;
 }
 
-Result<ExchangeResult> Bus::broadcastPing(int highestId, const std::function<void(const Reply &)> &found)
+Result<void> Bus::exchangeInto(const Request &request, ByteView packet, ExchangeResult &result)
+{
+    if (Result<void> ready = prepare(); !ready)
+        return ready;
+    const bool isPing = request.packet.instruction == Instruction::Ping;
+    if (!isPing && m_late.concern(request) && !isMute(request, request.replies.front().id)) {
+        const Result<std::optional<Error>> silence = fence(request.replies.front().id);
+        if (!silence)
+            return tl::unexpected(silence.error());
+        if (*silence) { // whoever doesn't answer a Ping would break the chain, too
+            result.seen.reset();
+            result.brokenAt = 0;
+            result.replies.assign(request.replies.size(), tl::unexpected(**silence));
+            for (std::size_t i = 1; i < request.replies.size(); ++i)
+                result.replies[i] = tl::unexpected(
+                    messages::chainBroken(request.replies[i].id, request.replies.front().id));
+            return {};
+        }
+        if (Result<void> ready = prepare(); !ready)
+            return ready;
+    }
+    Waiting waiting;
+    return perform(request, packet, waiting, result);
+}
+
+Result<ExchangeResult> Bus::broadcastPing(int highestId, const Collector::Found &found)
 {
     Waiting waiting;
     waiting.highestId = std::clamp(highestId, 0, static_cast<int>(MaximumId));
     waiting.found = found;
     if (Result<void> ready = prepare(); !ready)
         return tl::unexpected(ready.error());
-    return perform(pingRequest(BroadcastId), waiting);
-}
-
-Result<ExchangeResult> Bus::attempt(const Request &request)
-{
-    if (Result<void> ready = prepare(); !ready)
-        return tl::unexpected(ready.error());
-    const bool couldMistake = request.packet.instruction != Instruction::Ping && !request.replies.empty();
-    if (m_doubtful && couldMistake) {
-        Error silence;
-        const Result<bool> answered = fence(request.replies.front().id, silence);
-        if (!answered)
-            return tl::unexpected(answered.error());
-        if (!*answered) { // whoever doesn't answer a Ping would break the chain, too
-            ExchangeResult result;
-            result.replies.push_back(tl::unexpected(silence));
-            for (std::size_t i = 1; i < request.replies.size(); ++i)
-                result.replies.push_back(
-                    tl::unexpected(messages::chainBroken(request.replies[i].id, request.replies.front().id)));
-            result.brokenAt = 0;
-            return result;
-        }
-        if (Result<void> ready = prepare(); !ready)
-            return tl::unexpected(ready.error());
-    }
-    Waiting waiting;
-    return perform(request, waiting);
-}
-
-/// Adapters delay, but keep the order: one answered Ping proves that nothing older is in flight.
-Result<bool> Bus::fence(std::uint8_t id, Error &silence)
-{
-    Waiting waiting;
-    const Result<ExchangeResult> ping = perform(pingRequest(id), waiting);
-    if (!ping)
-        return tl::unexpected(ping.error());
-    if (!ping->replies.front())
-        silence = ping->replies.front().error();
-    return ping->replies.front().has_value();
-}
-
-Result<ExchangeResult> Bus::perform(const Request &request, Waiting &waiting)
-{
-    const Bytes packet = encode(request.packet);
-    Collector::Heard heard;
-    if (m_tap)
-        heard = [this](LineTime at, ByteView bytes) { m_tap(Direction::Received, at, bytes); };
-    Collector collector(request, packet, std::move(heard), std::move(waiting.found));
-    if (m_echoes)
-        collector.expectEcho();
-    waiting.begin = m_line.now();
-    if (Result<void> sent = send(packet); !sent)
-        return tl::unexpected(sent.error());
-    waiting.origin = m_sentBy;
-    const Result<void> listened = listen(collector, request, waiting);
-    m_statistics.busy += m_line.now() - waiting.begin;
-    if (!listened) {
-        m_unsettled = m_doubtful = true;
-        return tl::unexpected(listened.error());
-    }
+    const Request request = pingRequest(BroadcastId);
     ExchangeResult result;
-    result.seen = collector.seen();
-    result.seen.roundTrip = collector.lastPacketAt().value_or(m_line.now()) - waiting.begin;
-    result.brokenAt = collector.brokenAt();
-    result.replies = collector.replies(m_line.now() - waiting.origin);
+    if (Result<void> done = perform(request, encode(request.packet), waiting, result); !done)
+        return tl::unexpected(done.error());
+    return result;
+}
+
+/// Adapters delay, but keep the order: one answered Ping proves that nothing older is in flight. Where an earlier Ping
+/// is itself unanswered, a Read of a length that nobody waits for. Returns why not, where no answer came.
+Result<std::optional<Error>> Bus::fence(std::uint8_t id)
+{
+    const Request request =
+        m_late.couldBePing(id) ? readRequest({id, 0, m_late.distinctLength(id)}) : pingRequest(id);
+    Waiting waiting;
+    ExchangeResult result;
+    if (Result<void> done = perform(request, encode(request.packet), waiting, result); !done)
+        return tl::unexpected(done.error());
+    if (result.replies.front())
+        return std::optional<Error>();
+    return std::optional<Error>(result.replies.front().error());
+}
+
+Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &waiting, ExchangeResult &result)
+{
+    m_collector.begin(request, packet, std::move(waiting.found));
+    if (m_echoes)
+        m_collector.expectEcho();
+    waiting.begin = m_channel.now();
+    if (const Result<LineTime> begun = begin(packet); !begun)
+        return tl::unexpected(begun.error());
+    waiting.sent = waiting.origin = m_channel.sentBy();
+    const Result<void> listened = listen(request, waiting);
+    m_quality.totals().busy += m_channel.now() - waiting.begin;
+    if (!listened) {
+        m_unsettled = true;
+        m_late.addAll(request, waiting.sent);
+        return listened;
+    }
+    const LineTime last = m_collector.lastPacketAt().value_or(m_channel.now());
+    m_unsettled = m_collector.isMidPacket();
+    m_collector.finish(result, m_channel.now() - waiting.origin);
+    result.seen.roundTrip = last - waiting.begin;
     explainSilence(request, result);
     m_echoes = m_echoes || result.seen.echo;
-    const auto lost = [](const Result<Reply> &reply) { return !reply && reply.error().kind != ErrorKind::Refused; };
-    const bool anyLost = std::ranges::any_of(result.replies, lost);
+    learn(request, result, waiting.sent);
+    remember(request, result, waiting.sent);
+    m_quality.count(request, result, waiting.sent);
+    return {};
+}
+
+/// What was missing may still come.
+void Bus::remember(const Request &request, const ExchangeResult &result, LineTime sent)
+{
+    const bool anyLost = std::ranges::any_of(result.replies,
+        [](const Result<Reply> &reply) { return !reply && reply.error().kind != ErrorKind::Refused; });
     if (anyLost)
-        m_doubtful = true;
-    else if (request.packet.instruction == Instruction::Ping && request.shape == ReplyShape::Single)
-        m_doubtful = false;
-    m_unsettled = anyLost || result.seen.strayPackets > 0 || result.seen.noiseBytes > 0 || collector.isMidPacket();
-    count(result);
-    return result;
+        m_late.addMissing(request, result, sent);
+    if (request.shape == ReplyShape::Anyone)
+        m_late.addPings(sent);
+    m_unsettled = m_unsettled || anyLost || result.seen.strayPackets > 0 || result.seen.noiseBytes > 0;
+}
+
+/// From the answers of devices that have only themselves to wait for: behind another's answer an adapter that hands
+/// over by the piece makes it look as if they had come at once.
+void Bus::learn(const Request &request, const ExchangeResult &result, LineTime sent)
+{
+    const LineTime byteTime = m_channel.line().byteTime();
+    for (const Collector::Belated &late : m_collector.belated())
+        m_timing.learn(late.id, late.by - traits(late.id).returnDelay);
+    if (request.isWrite() || request.shape == ReplyShape::Anyone || result.replies.empty() || !result.replies.front())
+        return;
+    const Reply &first = *result.replies.front();
+    if (first.bytes == 0)
+        return;
+    const std::size_t bytes = request.shape == ReplyShape::Fast ? request.maximumReplySize() : first.bytes;
+    m_timing.learn(first.id, first.at - times(bytes, byteTime) - sent - traits(first.id).returnDelay);
 }
 
 /// Nothing that belongs to an earlier request may be taken for the answer to the next one.
@@ -160,106 +199,110 @@ Result<void> Bus::prepare()
 {
     if (isStopped())
         return tl::unexpected(messages::stopped());
-    m_received.clear();
-    if (Result<void> read = keep(m_line.read(m_received, m_line.now())); !read)
-        return read;
-    if (!m_received.empty()) {
-        m_statistics.bytesReceived += m_received.size();
-        if (m_received == m_lastSent) // the echo of a request that nobody answers
+    const Result<ByteView> waiting = m_channel.receive(m_channel.now());
+    if (!waiting)
+        return tl::unexpected(waiting.error());
+    if (!waiting->empty()) {
+        m_channel.countDiscarded(waiting->size());
+        if (std::ranges::equal(*waiting, m_channel.lastSent())) // the echo of a request that nobody answers
             m_echoes = true;
         else
             m_unsettled = true;
     }
+    m_late.forgetOld(m_channel.now());
     if (!m_unsettled)
         return {};
-    if (Result<void> quiet = settleFor(std::max<LineTime>(1500us, 10 * m_line.byteTime()), SettleLimit, true); !quiet)
-        return quiet;
+    const LineTime quiet = std::max<LineTime>(1500us, 10 * m_channel.line().byteTime());
+    if (Result<void> settled = m_channel.settle(quiet, SettleLimit, Channel::Heed::Stop); !settled)
+        return settled;
     m_unsettled = false;
     return {};
 }
 
-Result<void> Bus::send(ByteView packet)
+Result<LineTime> Bus::begin(ByteView packet)
 {
-    const LineTime begin = std::max(m_line.now(), m_sentBy);
-    if (Result<void> written = keep(m_line.write(packet)); !written)
-        return written;
-    m_sentBy = begin + static_cast<LineTime::rep>(packet.size()) * m_line.byteTime();
-    m_lastSent.assign(packet.begin(), packet.end());
-    m_statistics.bytesSent += packet.size();
-    if (m_tap)
-        m_tap(Direction::Sent, begin, packet);
-    return {};
+    Result<LineTime> begun = m_channel.send(packet);
+    if (begun && m_tap)
+        m_tap(Direction::Sent, *begun, packet);
+    return begun;
 }
 
 Result<void> Bus::sendOnly(ByteView packet)
 {
-    if (Result<void> sent = send(packet); !sent)
-        return sent;
+    if (const Result<LineTime> begun = begin(packet); !begun)
+        return tl::unexpected(begun.error());
     m_unsettled = true;
-    return waitUntil(m_sentBy, false);
+    return m_channel.waitUntil(m_channel.sentBy(), Channel::Heed::Nothing);
 }
 
-Result<void> Bus::listen(Collector &collector, const Request &request, Waiting &waiting)
+Result<void> Bus::listen(const Request &request, Waiting &waiting)
 {
-    const LineTime longest = static_cast<LineTime::rep>(request.maximumReplySize()) * m_line.byteTime();
-    const auto devices = static_cast<LineTime::rep>(std::max<std::size_t>(1, request.replies.size()));
-    waiting.limit = waiting.origin + 2 * longest
-        + devices * (timing::silence(m_line) + timing::processing(request.packet.instruction) + 1ms);
+    const Line &line = m_channel.line();
+    const LineTime longest = times(request.maximumReplySize(), line.byteTime());
+    const LineTime each = timing::silence(line) + timing::processing(request.packet.instruction) + 1ms
+        + (request.replies.empty() ? LineTime() : m_timing.allowance(request.replies.front().id, line.hostAllowance()));
+    waiting.limit = waiting.origin + 2 * longest + times(std::max<std::size_t>(1, request.replies.size()), each);
     if (request.shape == ReplyShape::Anyone)
         waiting.limit += (MaximumId + 1) * timing::SlotOfBroadcastPing;
     if (request.shape == ReplyShape::None && !m_echoes)
-        return waitUntil(m_sentBy, true);
-    while (!collector.isComplete()) {
+        return m_channel.waitUntil(waiting.sent, Channel::Heed::Stop);
+    while (!m_collector.isComplete()) {
         if (isStopped())
             return tl::unexpected(messages::stopped());
         if (request.shape == ReplyShape::Anyone && m_cancel && m_cancel->load(std::memory_order_acquire))
             return tl::unexpected(messages::cancelled());
-        const LineTime now = m_line.now();
-        LineTime until = deadline(collector, request, waiting);
-        if (collector.isMidPacket()) {
-            until = std::min(waiting.lastByte + timing::silence(m_line), waiting.limit);
+        const LineTime now = m_channel.now();
+        LineTime until = deadline(request, waiting);
+        if (m_collector.isMidPacket()) {
+            until = std::min(waiting.lastByte + timing::silence(line), waiting.limit);
             if (now >= until) {
-                collector.giveUp(now);
+                m_collector.giveUp(now);
                 continue;
             }
         } else {
             // Somebody else's packet or noise held the wire when the answer was due.
-            if (collector.seen().bytesReceived > 0)
-                until = std::max(until, std::min(waiting.limit, waiting.lastByte + 10 * m_line.byteTime()));
+            if (m_collector.seen().bytesReceived > 0)
+                until = std::max(until, std::min(waiting.limit, waiting.lastByte + 10 * line.byteTime()));
             if (now >= until)
                 break;
         }
-        if (Result<void> read = receive(std::min(until, now + timing::Slice)); !read)
-            return read;
-        if (m_received.empty())
+        const Result<ByteView> received = m_channel.receive(std::min(until, now + timing::Slice));
+        if (!received)
+            return tl::unexpected(received.error());
+        if (received->empty())
             continue;
-        waiting.lastByte = m_line.now();
-        collector.feed(m_received, waiting.lastByte);
-        if (const auto packetAt = collector.lastPacketAt(); packetAt && request.shape != ReplyShape::Anyone)
+        waiting.lastByte = m_channel.now();
+        m_collector.feed(*received, waiting.lastByte);
+        if (const auto packetAt = m_collector.lastPacketAt(); packetAt && request.shape != ReplyShape::Anyone)
             waiting.origin = std::max(waiting.origin, *packetAt);
     }
     return {};
 }
 
 /// Reference "Time": return delay, processing and host from the end of the request, or of the predecessor's packet.
-LineTime Bus::deadline(const Collector &collector, const Request &request, const Waiting &waiting) const
+LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
 {
-    const LineTime host = waiting.origin + m_line.hostAllowance();
-    const LineTime base = host + timing::processing(request.packet.instruction);
+    const Line &line = m_channel.line();
+    const LineTime processing = timing::processing(request.packet.instruction);
     if (request.shape == ReplyShape::None)
-        return base;
+        return waiting.origin + line.hostAllowance() + processing;
     if (request.shape == ReplyShape::Anyone) {
-        const auto replies = static_cast<LineTime::rep>(collector.answers());
-        const auto replySize = static_cast<LineTime::rep>(timing::largestStatus(3));
-        return base + (waiting.highestId + 1) * timing::SlotOfBroadcastPing
-            + replies * (replySize * m_line.byteTime() + Traits().returnDelay);
+        const LineTime reply = times(timing::largestStatus(3), line.byteTime()) + Traits().returnDelay;
+        return waiting.origin + line.hostAllowance() + processing
+            + (waiting.highestId + 1) * timing::SlotOfBroadcastPing + times(m_collector.answers(), reply);
     }
-    const std::uint8_t next = request.replies[collector.position()].id;
-    const Traits device = traits(next);
+    const std::uint8_t next = request.replies[m_collector.position()].id;
+    const LineTime host = m_timing.allowance(next, line.hostAllowance());
+    const LineTime firstByte = 2 * line.byteTime();
     // Nothing is expected of a device that is told to be silent: no need to wait until it has written its EEPROM.
-    const bool silent = device.statusReturnLevel < 2 && request.isWrite();
-    const LineTime firstByte = 2 * m_line.byteTime();
-    return (silent ? host + timing::processing(Instruction::Read) : base) + device.returnDelay + firstByte;
+    return waiting.origin + host + traits(next).returnDelay + firstByte
+        + (isMute(request, next) ? timing::processing(Instruction::Read) : processing);
+}
+
+/// Will this device keep silent about this request, by its Status Return Level?
+bool Bus::isMute(const Request &request, std::uint8_t id) const
+{
+    return request.isWrite() && traits(id).statusReturnLevel < 2;
 }
 
 /// At a low Status Return Level silence is what was to be expected.
@@ -267,100 +310,32 @@ void Bus::explainSilence(const Request &request, ExchangeResult &result) const
 {
     if (request.packet.instruction == Instruction::Ping)
         return;
-    const bool isRead = !request.isWrite();
     for (std::size_t i = 0; i < result.replies.size(); ++i) {
         Result<Reply> &reply = result.replies[i];
-        if (reply || reply.error().kind != ErrorKind::NothingReceived)
+        if (reply || (reply.error().kind != ErrorKind::NothingReceived && reply.error().kind != ErrorKind::LateAnswer))
             continue;
         const std::uint8_t id = request.replies[i].id;
         const int level = traits(id).statusReturnLevel;
-        if (!isRead && level < 2)
-            reply = Reply{id, DeviceError::None, false, {}, m_line.now()};
-        else if (isRead && level < 1)
+        if (isMute(request, id))
+            reply = Reply{id, DeviceError::None, false, {}, m_channel.now()};
+        else if (level < 1)
             reply = tl::unexpected(messages::silentByLevel(id, level));
     }
 }
 
-void Bus::count(const ExchangeResult &result)
+BusStatistics Bus::statistics() const
 {
-    ++m_statistics.exchanges;
-    m_statistics.bytesReceived += result.seen.bytesReceived;
-    m_statistics.strays += static_cast<quint64>(result.seen.strayPackets);
-    m_statistics.crcErrors += static_cast<quint64>(result.seen.damagedPackets);
-    for (const Result<Reply> &reply : result.replies) {
-        if (reply) {
-            ++m_statistics.replies;
-            continue;
-        }
-        switch (reply.error().kind) {
-        case ErrorKind::Refused: ++m_statistics.replies; break;
-        case ErrorKind::WrongLength: ++m_statistics.lengthErrors; break;
-        case ErrorKind::DamagedCrc: break;
-        default: ++m_statistics.timeouts; break;
-        }
-    }
+    BusStatistics statistics = m_quality.totals();
+    statistics.bytesSent = m_channel.bytesSent();
+    statistics.bytesReceived += m_channel.bytesDiscarded();
+    return statistics;
 }
 
-Result<void> Bus::settleFor(LineTime quiet, LineTime limit, bool heedStop)
+LineQuality Bus::quality() const
 {
-    const LineTime end = m_line.now() + limit;
-    LineTime silentSince = m_line.now();
-    while (m_line.now() < end && m_line.now() - silentSince < quiet) {
-        if (heedStop && isStopped())
-            return tl::unexpected(messages::stopped());
-        if (Result<void> read = receive(std::min({end, silentSince + quiet, m_line.now() + timing::Slice})); !read)
-            return read;
-        if (m_received.empty())
-            continue;
-        silentSince = m_line.now();
-        m_statistics.bytesReceived += m_received.size();
-    }
-    m_line.discardInput();
-    return {};
-}
-
-Result<void> Bus::setBaudRate(int bitsPerSecond)
-{
-    if (bitsPerSecond == m_line.baudRate())
-        return {};
-    if (m_sentBy + DrainMargin > m_line.now()) {
-        if (Result<void> drained = waitUntil(m_sentBy + std::min(DrainMargin, m_line.hostAllowance()), false); !drained)
-            return drained;
-    }
-    if (Result<void> set = keep(m_line.setBaudRate(bitsPerSecond)); !set)
-        return set;
-    m_line.discardInput();
-    if (Result<void> waited = waitUntil(m_line.now() + 2 * m_line.byteTime(), false); !waited)
-        return waited;
-    m_line.discardInput();
-    return {};
-}
-
-/// What comes meanwhile is discarded.
-Result<void> Bus::waitUntil(LineTime time, bool heedStop)
-{
-    while (m_line.now() < time) {
-        if (heedStop && isStopped())
-            return tl::unexpected(messages::stopped());
-        if (Result<void> read = receive(std::min(time, m_line.now() + timing::Slice)); !read)
-            return read;
-        m_statistics.bytesReceived += m_received.size();
-    }
-    return {};
-}
-
-Result<void> Bus::receive(LineTime until)
-{
-    m_received.clear();
-    return keep(m_line.read(m_received, until));
-}
-
-/// Remembers that the line is gone.
-Result<void> Bus::keep(Result<void> result)
-{
-    if (!result && result.error().kind == ErrorKind::PortLost)
-        m_lost = result.error();
-    return result;
+    LineQuality quality = m_quality.snapshot();
+    quality.totals = statistics();
+    return quality;
 }
 
 } // namespace dynascope

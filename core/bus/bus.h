@@ -1,56 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/bus_values.h"
+#include "core/bus/channel.h"
+#include "core/bus/collector.h"
+#include "core/bus/learnedtiming.h"
+#include "core/bus/quality.h"
 #include "core/bus/traits.h"
 
-#include <atomic>
-#include <functional>
-#include <optional>
+#include <bitset>
 
 namespace dynascope {
 
-class Collector;
-
 /// One exchange after the other on one line: sends a request, waits until its deadline, takes the answer apart.
 /// Belongs to the thread of its line; blocking. Deadlines follow the model of reference "Time": bytes to leave, return
-/// delay, processing, adapter latency, per device in group reads.
+/// delay, processing, adapter latency, per device in group reads; what the answers so far taught replaces the line's
+/// own guess of the latency.
 ///
 /// Every wait is cut into slices of at most 2 ms that look at the stop flag; once it is set the exchange ends with
 /// ErrorKind::Stopped, and so does every further one until the flag is cleared.
 class Bus
 {
 public:
-    explicit Bus(Line &line, const std::atomic<bool> *stop = nullptr);
+    explicit Bus(Line &line, const std::atomic<bool> *stop = nullptr) : m_channel(line, stop) { }
+    Bus(const Bus &) = delete;
+    Bus &operator=(const Bus &) = delete;
 
-    Line &line() { return m_line; }
+    Line &line() { return m_channel.line(); }
 
     /// `traits` of the devices concerned, by ID; those not listed are taken for factory-fresh.
-    void setTraits(std::vector<Traits> traits);
+    void setTraits(const std::vector<Traits> &traits);
     Traits traits(std::uint8_t id) const;
 
     /// Sends and collects. Retries what is idempotent up to `retries` times. Total failures of the port come as an
     /// error of the whole; each device's own come in its entry. A device silent by its Status Return Level yields a
-    /// reply without data at the deadline.
+    /// reply without data at the deadline. Where the answer could be mistaken for a late one of an earlier request, a
+    /// Ping goes out first: only its answer proves that nothing older is under way.
     Result<ExchangeResult> exchange(const Request &request, int retries = 2);
 
+    /// As exchange() without retries, into a result that is used again and again: from the second exchange alike on
+    /// nothing is allocated. `packet` is the request's, as bytes; at most MaximumPacketSize.
+    Result<void> exchangeInto(const Request &request, ByteView packet, ExchangeResult &result);
+
     /// As exchange(), and calls `found` with each answer to a broadcast Ping as it comes. `highestId` bounds the wait.
-    Result<ExchangeResult> broadcastPing(int highestId, const std::function<void(const Reply &)> &found);
+    Result<ExchangeResult> broadcastPing(int highestId, const Collector::Found &found);
 
     /// Sends without waiting for anything but the bytes to leave. Looks at no stop flag: this is what STOP uses.
     Result<void> sendOnly(ByteView packet);
 
     /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
-    Result<void> settle(LineTime quiet, LineTime limit) { return settleFor(quiet, limit, false); }
+    Result<void> settle(LineTime quiet, LineTime limit)
+    {
+        return m_channel.settle(quiet, limit, Channel::Heed::Nothing);
+    }
 
     /// Lets time pass; what comes meanwhile is discarded.
-    Result<void> wait(LineTime duration) { return waitUntil(m_line.now() + duration, true); }
+    Result<void> wait(LineTime duration)
+    {
+        return m_channel.waitUntil(m_channel.now() + duration, Channel::Heed::Stop);
+    }
 
     /// Drain, set, discard, two byte times. Error: the old rate stays.
-    Result<void> setBaudRate(int bitsPerSecond);
+    Result<void> setBaudRate(int bitsPerSecond) { return m_channel.setBaudRate(bitsPerSecond); }
 
-    bool isStopped() const { return m_stop && m_stop->load(std::memory_order_acquire); }
-    const BusStatistics &statistics() const { return m_statistics; }
+    bool isStopped() const { return m_channel.isStopped(); }
+    BusStatistics statistics() const;
+    LineQuality quality() const; ///< per device, too
 
     /// A broadcast Ping, which takes up to 0.8 s, ends with Cancelled once this is set. Not owned; may be null.
     void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
@@ -59,43 +73,38 @@ public:
     void look() { (void)prepare(); }
 
     /// Why the line is gone, once a call to it failed with PortLost.
-    const std::optional<Error> &lost() const { return m_lost; }
+    const std::optional<Error> &lost() const { return m_channel.lost(); }
 
     /// Called with each packet as it goes out or comes in, for the traffic view and `dxl -v`.
     enum class Direction { Sent, Received };
     using Tap = std::function<void(Direction, LineTime, ByteView)>;
-    void setTap(Tap tap) { m_tap = std::move(tap); }
+    void setTap(Tap tap);
 
 private:
     struct Waiting;
 
-    Result<ExchangeResult> attempt(const Request &request);
-    Result<ExchangeResult> perform(const Request &request, Waiting &waiting);
     Result<void> prepare();
-    Result<bool> fence(std::uint8_t id, Error &silence);
-    Result<void> send(ByteView packet);
-    Result<void> listen(Collector &collector, const Request &request, Waiting &waiting);
-    Result<void> settleFor(LineTime quiet, LineTime limit, bool heedStop);
-    Result<void> waitUntil(LineTime time, bool heedStop);
-    Result<void> receive(LineTime until);
-    LineTime deadline(const Collector &collector, const Request &request, const Waiting &waiting) const;
+    Result<std::optional<Error>> fence(std::uint8_t id);
+    Result<void> perform(const Request &request, ByteView packet, Waiting &waiting, ExchangeResult &result);
+    Result<void> listen(const Request &request, Waiting &waiting);
+    Result<LineTime> begin(ByteView packet);
+    LineTime deadline(const Request &request, const Waiting &waiting) const;
+    bool isMute(const Request &request, std::uint8_t id) const;
+    void learn(const Request &request, const ExchangeResult &result, LineTime sent);
+    void remember(const Request &request, const ExchangeResult &result, LineTime sent);
     void explainSilence(const Request &request, ExchangeResult &result) const;
-    void count(const ExchangeResult &result);
-    Result<void> keep(Result<void> result);
 
-    Line &m_line;
-    const std::atomic<bool> *m_stop;
+    Channel m_channel;
+    LateAnswers m_late;
+    Collector m_collector{m_late};
+    LearnedTiming m_timing;
+    QualityLog m_quality;
     const std::atomic<bool> *m_cancel = nullptr;
-    std::vector<Traits> m_traits;
-    BusStatistics m_statistics;
+    std::array<Traits, 256> m_traits; ///< by ID, where m_known says so
+    std::bitset<256> m_known;
     Tap m_tap;
-    std::optional<Error> m_lost;
-    Bytes m_received; ///< what the last read brought
-    Bytes m_lastSent;
-    LineTime m_sentBy{};      ///< when the last byte of the last packet has left
     bool m_echoes = false;    ///< the adapter returns what is sent
     bool m_unsettled = false; ///< something is or may be coming that belongs to an earlier request
-    bool m_doubtful = false;  ///< an answer was missed and may still come: only an answered Ping proves that it won't
 };
 
 } // namespace dynascope

@@ -12,7 +12,8 @@ struct Reply {
     DeviceError error = DeviceError::None;
     bool alert = false; ///< Hardware Error Status is latched; never itself a failure
     Bytes data;
-    LineTime at{}; ///< when its last byte had come
+    LineTime at{};         ///< when its last byte had come
+    std::size_t bytes = 0; ///< on the wire; 0 where nothing was to come by its Status Return Level
 };
 
 /// What the line did during one exchange, for messages and statistics.
@@ -23,9 +24,12 @@ struct Observations {
     std::vector<std::uint8_t> damagedIds; ///< as they stood in those packets; may be damaged themselves
     int strayPackets = 0;                 ///< valid, but not asked for
     std::vector<std::uint8_t> strayIds;
+    int lateAnswers = 0; ///< that belong, or may belong, to an earlier request
     bool echo = false; ///< the request itself came back first
     int retries = 0;
     LineTime roundTrip{}; ///< write to last reply
+
+    void reset(); ///< to nothing seen; keeps its memory
 };
 
 /// Everything a request brought. One entry per expected reply, in the order of the request; with a broadcast Ping one
@@ -44,6 +48,7 @@ struct BusStatistics {
     quint64 crcErrors = 0;
     quint64 lengthErrors = 0;
     quint64 strays = 0;
+    quint64 lateAnswers = 0; ///< came behind their deadline, or could not be told from one that did
     quint64 retries = 0;
     quint64 bytesSent = 0;
     quint64 bytesReceived = 0;
@@ -51,5 +56,15 @@ struct BusStatistics {
 
     friend bool operator==(const BusStatistics &, const BusStatistics &) = default;
 };
+
+inline void Observations::reset()
+{
+    Observations fresh;
+    fresh.damagedIds.swap(damagedIds);
+    fresh.strayIds.swap(strayIds);
+    fresh.damagedIds.clear();
+    fresh.strayIds.clear();
+    *this = std::move(fresh);
+}
 
 } // namespace dynascope

@@ -11,18 +11,29 @@ namespace dynascope {
 namespace {
 
 constexpr std::size_t PingReplyLength = 3;
+constexpr std::size_t IdAt = 4;
 
 } // namespace
 
-Collector::Collector(const Request &request, Bytes sent, Heard heard, Found found)
-    : m_request(request)
-    , m_sent(std::move(sent))
-    , m_heard(std::move(heard))
-    , m_found(std::move(found))
-    , m_parser(timing::largestPacket(request, m_sent.size()))
+void Collector::begin(const Request &request, ByteView sent, Found found)
 {
-    for (const ExpectedReply &expected : request.replies)
-        m_slots.push_back({expected, std::nullopt, false, std::nullopt});
+    m_request = &request;
+    m_sent = sent;
+    m_found = std::move(found);
+    m_parser.reset();
+    m_parser.setMaximumSize(timing::largestPacket(request, sent.size()));
+    m_slotCount = request.replies.size();
+    m_slots.resize(std::max(m_slots.size(), m_slotCount));
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
+        m_slots[i].expected = request.replies[i];
+        m_slots[i].state = Slot::State::Open;
+    }
+    m_seen.reset();
+    m_cutOff.reset();
+    m_lastPacketAt.reset();
+    m_belated.clear();
+    m_answers = 0;
+    m_echoExpected = false;
 }
 
 void Collector::feed(ByteView bytes, LineTime at)
@@ -38,7 +49,7 @@ void Collector::giveUp(LineTime at)
     if (pending.have > 0) {
         if (!m_cutOff || pending.have > m_cutOff->have)
             m_cutOff = pending;
-        if (m_request.shape == ReplyShape::Fast)
+        if (m_request->shape == ReplyShape::Fast)
             salvageBlocks(m_parser.buffered(), at);
     }
     m_parser.giveUp();
@@ -47,7 +58,7 @@ void Collector::giveUp(LineTime at)
 
 void Collector::drain(LineTime at)
 {
-    while (auto event = m_parser.next()) {
+    while (const auto event = m_parser.next()) {
         if (const auto *packet = std::get_if<Parser::Packet>(&*event)) {
             if (m_heard)
                 m_heard(at, packet->raw);
@@ -55,7 +66,7 @@ void Collector::drain(LineTime at)
         } else if (const auto *damaged = std::get_if<Parser::Damaged>(&*event)) {
             if (m_heard)
                 m_heard(at, damaged->raw);
-            takeDamaged(*damaged, at);
+            takeDamaged(damaged->raw, at);
         }
     }
     m_seen.noiseBytes = m_parser.noiseBytes();
@@ -64,78 +75,120 @@ void Collector::drain(LineTime at)
 void Collector::take(const Parser::Packet &packet, LineTime at)
 {
     if (!packet.isStatus()) { // never an answer; our own packet where the adapter returns what was sent
-        if (packet.raw == m_sent && !m_seen.echo)
+        if (std::ranges::equal(packet.raw, m_sent) && !m_seen.echo)
             m_seen.echo = true;
         else
-            stray(packet.id);
-        return;
+            stray(packet, at);
+    } else if (packet.isFastStatus()) {
+        takeFast(packet, at);
+    } else if (m_request->shape == ReplyShape::Anyone) {
+        takeAnyone(packet, at);
+    } else {
+        takeStatus(packet, at);
     }
-    if (packet.isFastStatus()) {
-        if (m_request.shape != ReplyShape::Fast) {
-            stray(packet.id);
-            return;
-        }
-        salvageBlocks(packet.raw, at);
-        const auto open = std::ranges::find_if(m_slots, [](const Slot &slot) { return !slot.reply; });
-        if (open != m_slots.end()) // a good packet, but not of the shape that was asked for
-            open->wrongLength = packet.parameters.size();
-        m_lastPacketAt = at;
-        return;
-    }
-    if (m_request.shape == ReplyShape::Anyone)
-        takeAnyone(packet.status(), at);
-    else
-        takeStatus(packet.status(), at);
 }
 
-void Collector::takeStatus(const StatusPacket &status, LineTime at)
+void Collector::takeFast(const Parser::Packet &packet, LineTime at)
 {
-    Slot *slot = m_request.shape == ReplyShape::Fast ? nullptr : slotOf(status.id);
-    if (!slot || slot->reply) {
-        stray(status.id);
+    if (m_request->shape != ReplyShape::Fast) {
+        stray(packet, at);
         return;
+    }
+    salvageBlocks(packet.raw, at);
+    const auto end = m_slots.begin() + static_cast<std::ptrdiff_t>(m_slotCount);
+    const auto open = std::find_if(m_slots.begin(), end, [](const Slot &slot) { return slot.state == Slot::State::Open; });
+    if (open != end) { // a good packet, but not of the shape that was asked for
+        open->state = Slot::State::WrongLength;
+        open->length = packet.parameters.size();
     }
     m_lastPacketAt = at;
-    if (status.error == DeviceError::None && status.parameters.size() != slot->expected.length) {
-        slot->wrongLength = status.parameters.size(); // perhaps a late one: the right one may follow
-        return;
-    }
-    slot->reply = Reply{status.id, status.error, status.alert, {}, at};
-    if (status.error == DeviceError::None)
-        slot->reply->data = status.parameters;
-    ++m_answers;
 }
 
-void Collector::takeAnyone(const StatusPacket &status, LineTime at)
+void Collector::takeStatus(const Parser::Packet &status, LineTime at)
+{
+    Slot *slot = m_request->shape == ReplyShape::Fast ? nullptr : slotOf(status.id);
+    if (!slot || slot->answered()) {
+        stray(status, at);
+        return;
+    }
+    if (isDoubtful(*slot, status, at))
+        return;
+    m_lastPacketAt = at;
+    const bool isError = (status.errorField & ~AlertBit) != 0;
+    if (!isError && status.parameters.size() != slot->expected.length) {
+        slot->state = Slot::State::WrongLength; // the right one may follow
+        slot->length = status.parameters.size();
+        return;
+    }
+    accept(*slot, status.errorField, status.parameters, at, status.raw.size());
+}
+
+/// Is it an answer that may be an earlier request's? Then the right one may follow. An answer to Ping says the same
+/// whenever it comes; but it proves nothing of what else is under way.
+bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at)
+{
+    const bool isError = (status.errorField & ~AlertBit) != 0;
+    const std::size_t length = status.parameters.size();
+    if (!m_late.couldBe(status.id, length, isError)) {
+        if (isError || length == slot.expected.length)
+            m_late.clear();
+        return false;
+    }
+    if (m_request->packet.instruction == Instruction::Ping && !isError && length == slot.expected.length)
+        return false;
+    if (!isError && length != slot.expected.length)
+        m_belated.push_back({status.id, at - m_late.originOf(status.id, length).value_or(at)});
+    if (slot.state == Slot::State::Open)
+        slot.state = Slot::State::Doubtful;
+    ++m_seen.lateAnswers;
+    return true;
+}
+
+void Collector::takeAnyone(const Parser::Packet &status, LineTime at)
 {
     if (status.parameters.size() != PingReplyLength || slotOf(status.id)) {
-        stray(status.id); // a second answer under one ID: two devices share it
+        stray(status, at); // a second answer under one ID: two devices share it
         return;
     }
     m_lastPacketAt = at;
-    ++m_answers;
-    Slot slot{
-        {status.id, PingReplyLength}, Reply{status.id, status.error, status.alert, status.parameters, at}, false, {}};
-    m_slots.push_back(slot);
+    if (m_slots.size() == m_slotCount)
+        m_slots.emplace_back();
+    Slot &slot = m_slots[m_slotCount++];
+    slot.expected = {status.id, PingReplyLength};
+    accept(slot, status.errorField, status.parameters, at, status.raw.size());
     if (m_found)
-        m_found(*slot.reply);
+        m_found(slot.reply);
 }
 
-void Collector::takeDamaged(const Parser::Damaged &damaged, LineTime at)
+void Collector::accept(Slot &slot, std::uint8_t errorField, ByteView data, LineTime at, std::size_t bytes)
+{
+    slot.state = Slot::State::Answered;
+    slot.reply.id = slot.expected.id;
+    slot.reply.error = static_cast<DeviceError>(errorField & ~AlertBit);
+    slot.reply.alert = (errorField & AlertBit) != 0;
+    slot.reply.at = at;
+    slot.reply.bytes = bytes;
+    slot.reply.data.clear();
+    if (slot.reply.error == DeviceError::None || m_request->shape == ReplyShape::Anyone)
+        slot.reply.data.assign(data.begin(), data.end());
+    ++m_answers;
+}
+
+void Collector::takeDamaged(ByteView raw, LineTime at)
 {
     ++m_seen.damagedPackets;
-    m_seen.damagedIds.push_back(damaged.raw[4]);
-    if (m_request.shape == ReplyShape::Fast)
-        salvageBlocks(damaged.raw, at);
-    if (m_slots.empty() || m_request.shape == ReplyShape::Anyone)
+    m_seen.damagedIds.push_back(raw[IdAt]);
+    if (m_request->shape == ReplyShape::Fast)
+        salvageBlocks(raw, at);
+    if (m_slotCount == 0 || m_request->shape == ReplyShape::Anyone)
         return;
     // The ID that stands in it may itself be damaged; then it was the turn of the next one.
-    Slot *slot = m_request.shape == ReplyShape::Fast ? nullptr : slotOf(damaged.raw[4]);
-    if (!slot || slot->reply)
+    Slot *slot = m_request->shape == ReplyShape::Fast ? nullptr : slotOf(raw[IdAt]);
+    if (!slot || slot->answered())
         slot = &m_slots[position()];
-    if (slot->reply)
+    if (slot->answered())
         return;
-    slot->damaged = true;
+    slot->state = Slot::State::Damaged;
     m_lastPacketAt = at;
 }
 
@@ -144,58 +197,71 @@ void Collector::takeDamaged(const Parser::Damaged &damaged, LineTime at)
 void Collector::salvageBlocks(ByteView raw, LineTime at)
 {
     constexpr std::size_t BlocksAt = HeaderSize + 1;
-    if (raw.size() < BlocksAt || raw[4] != BroadcastId
+    if (raw.size() < BlocksAt || raw[IdAt] != BroadcastId
         || raw[HeaderSize] != static_cast<std::uint8_t>(Instruction::Status))
         return;
+    const std::size_t announced = HeaderSize + littleEndian(raw.subspan(HeaderSize - 2), 2);
+    const bool doubtful = m_late.couldBeFast(announced);
     std::size_t begin = BlocksAt;
-    for (Slot &slot : m_slots) {
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
+        Slot &slot = m_slots[i];
         const std::size_t dataAt = begin + 2;
         const std::size_t crcAt = dataAt + slot.expected.length;
         if (raw.size() < crcAt + 2 || raw[begin + 1] != slot.expected.id
             || crc16(raw.first(crcAt)) != littleEndian(raw.subspan(crcAt), 2))
             return;
-        if (!slot.reply) {
-            const auto error = static_cast<DeviceError>(raw[begin] & ~AlertBit);
-            slot.reply = Reply{slot.expected.id, error, (raw[begin] & AlertBit) != 0, {}, at};
-            if (error == DeviceError::None)
-                slot.reply->data.assign(raw.begin() + static_cast<std::ptrdiff_t>(dataAt),
-                    raw.begin() + static_cast<std::ptrdiff_t>(crcAt));
-            ++m_answers;
-            m_lastPacketAt = at;
-        }
         begin = crcAt + 2;
+        if (slot.answered())
+            continue;
+        if (doubtful) {
+            slot.state = Slot::State::Doubtful;
+            ++m_seen.lateAnswers;
+            continue;
+        }
+        m_late.clear();
+        accept(slot, raw[dataAt - 2], raw.subspan(dataAt, slot.expected.length), at, begin - dataAt + 2);
+        m_lastPacketAt = at;
     }
 }
 
-void Collector::stray(std::uint8_t id)
+void Collector::stray(const Parser::Packet &packet, LineTime at)
 {
+    if (packet.isStatus() && !packet.isFastStatus()) {
+        if (const auto origin = m_late.originOf(packet.id, packet.parameters.size())) {
+            m_belated.push_back({packet.id, at - *origin});
+            ++m_seen.lateAnswers;
+        }
+    }
     ++m_seen.strayPackets;
-    m_seen.strayIds.push_back(id);
+    m_seen.strayIds.push_back(packet.id);
 }
 
 Collector::Slot *Collector::slotOf(std::uint8_t id)
 {
-    const auto slot = std::ranges::find_if(m_slots, [id](const Slot &s) { return s.expected.id == id; });
-    return slot == m_slots.end() ? nullptr : &*slot;
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
+        if (m_slots[i].expected.id == id)
+            return &m_slots[i];
+    }
+    return nullptr;
 }
 
 bool Collector::isComplete() const
 {
-    switch (m_request.shape) {
+    switch (m_request->shape) {
     case ReplyShape::None: return !m_echoExpected || m_seen.echo;
     case ReplyShape::Anyone: return false; // nobody knows how many there are
     case ReplyShape::Single:
-    case ReplyShape::InOrder: return m_slots.empty() || m_slots.back().reply; // behind the last one nobody answers
-    case ReplyShape::Fast: return std::ranges::all_of(m_slots, [](const Slot &slot) { return slot.reply.has_value(); });
+    case ReplyShape::InOrder: return m_slotCount == 0 || m_slots[m_slotCount - 1].answered(); // behind it nobody answers
+    case ReplyShape::Fast: return m_answers == m_slotCount;
     }
     return true;
 }
 
 std::size_t Collector::position() const
 {
-    for (std::size_t i = m_slots.size(); i > 0; --i) {
+    for (std::size_t i = m_slotCount; i > 0; --i) {
         if (m_slots[i - 1].passed())
-            return std::min(i, m_slots.size() - 1);
+            return std::min(i, m_slotCount - 1);
     }
     return 0;
 }
@@ -204,44 +270,51 @@ int Collector::brokenAt() const
 {
     // Behind the last device that was heard nobody was: the first of them broke the chain.
     std::size_t open = 0;
-    for (std::size_t i = 0; i < m_slots.size(); ++i) {
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
         if (m_slots[i].passed())
             open = i + 1;
     }
-    if (m_request.shape == ReplyShape::Fast) { // one packet: the first block that is missing
-        const auto first = std::ranges::find_if(m_slots, [](const Slot &slot) { return !slot.reply; });
-        open = static_cast<std::size_t>(first - m_slots.begin());
+    if (m_request->shape == ReplyShape::Fast) { // one packet: the first block that is missing
+        open = 0;
+        while (open < m_slotCount && m_slots[open].answered())
+            ++open;
     }
-    return open < m_slots.size() ? static_cast<int>(open) : -1;
+    return open < m_slotCount ? static_cast<int>(open) : -1;
 }
 
-std::vector<Result<Reply>> Collector::replies(LineTime waited) const
+void Collector::finish(ExchangeResult &result, LineTime waited)
 {
-    std::vector<Result<Reply>> result;
-    const int broken = brokenAt();
-    for (std::size_t i = 0; i < m_slots.size(); ++i) {
-        const Slot &slot = m_slots[i];
+    result.brokenAt = brokenAt();
+    result.replies.resize(m_slotCount);
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
+        Slot &slot = m_slots[i];
+        Result<Reply> &reply = result.replies[i];
         const int index = static_cast<int>(i);
-        if (slot.reply && slot.reply->error == DeviceError::None)
-            result.push_back(*slot.reply);
-        else if (slot.reply)
-            result.push_back(tl::unexpected(messages::refused(slot.expected.id, slot.reply->error)));
-        else if (broken >= 0 && index > broken && !slot.passed())
-            result.push_back(tl::unexpected(
-                messages::chainBroken(slot.expected.id, m_slots[static_cast<std::size_t>(broken)].expected.id)));
-        else
-            result.push_back(tl::unexpected(missing(slot, index == broken, waited)));
+        if (slot.answered() && slot.reply.error == DeviceError::None) {
+            if (!reply)
+                reply = Reply();
+            std::swap(*reply, slot.reply); // both keep their memory
+        } else if (slot.answered()) {
+            reply = tl::unexpected(messages::refused(slot.expected.id, slot.reply.error));
+        } else if (result.brokenAt >= 0 && index > result.brokenAt && !slot.passed()) {
+            const std::uint8_t culprit = m_slots[static_cast<std::size_t>(result.brokenAt)].expected.id;
+            reply = tl::unexpected(messages::chainBroken(slot.expected.id, culprit));
+        } else {
+            reply = tl::unexpected(missing(slot, index == result.brokenAt, waited));
+        }
     }
-    return result;
+    std::swap(result.seen, m_seen);
 }
 
 Error Collector::missing(const Slot &slot, bool blamed, LineTime waited) const
 {
     const std::uint8_t id = slot.expected.id;
-    if (slot.wrongLength)
-        return messages::wrongLength(id, *slot.wrongLength, slot.expected.length);
-    if (slot.damaged)
-        return messages::damagedCrc(id);
+    switch (slot.state) {
+    case Slot::State::WrongLength: return messages::wrongLength(id, slot.length, slot.expected.length);
+    case Slot::State::Damaged: return messages::damagedCrc(id);
+    case Slot::State::Doubtful: return messages::onlyLate(id);
+    default: break;
+    }
     if (blamed && m_cutOff)
         return messages::cutOff(id, m_cutOff->have, m_cutOff->want);
     if (blamed && !m_seen.strayIds.empty())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/bus_values.h"
+#include "core/bus/lateanswers.h"
 #include "core/protocol/parser.h"
 
 #include <functional>
@@ -10,18 +10,23 @@
 namespace dynascope {
 
 /// What one exchange has brought so far: takes the bytes that come apart and lays the packets to the replies a request
-/// expects. No I/O, no clock: times are handed in.
+/// expects. No I/O, no clock: times are handed in. Used for one exchange after the other; from the second alike one on
+/// it allocates nothing.
 class Collector
 {
 public:
-    /// Every packet or piece of noise that came, for the traffic view.
+    /// Every packet that came, for the traffic view.
     using Heard = std::function<void(LineTime, ByteView)>;
     /// With ReplyShape::Anyone: each answer as it comes.
     using Found = std::function<void(const Reply &)>;
 
-    /// `request` outlives the collector; `sent` is its packet as bytes: what an echo is compared with.
-    Collector(const Request &request, Bytes sent, Heard heard = {}, Found found = {});
+    /// `late` outlives the collector: what may still come of earlier requests; emptied by an answer that proves it away.
+    explicit Collector(LateAnswers &late) : m_late(late) { }
 
+    void setHeard(Heard heard) { m_heard = std::move(heard); }
+
+    /// Begins the next exchange. `request` and `sent`, its packet as bytes that an echo is compared with, outlive it.
+    void begin(const Request &request, ByteView sent, Found found = {});
     void expectEcho() { m_echoExpected = true; } ///< with ReplyShape::None: complete only with it
 
     void feed(ByteView bytes, LineTime at);
@@ -35,42 +40,56 @@ public:
     std::size_t position() const;
     /// When the last packet of an expected device had ended, damaged ones included; nothing before the first.
     std::optional<LineTime> lastPacketAt() const { return m_lastPacketAt; }
+    /// An answer to an earlier request that came now, and how long after it could have been awaited.
+    struct Belated {
+        std::uint8_t id = 0;
+        LineTime by{};
+    };
+    const std::vector<Belated> &belated() const { return m_belated; }
     std::size_t answers() const { return m_answers; }
 
-    /// One entry per expected reply. `waited` is how long was waited for a reply that did not come.
-    std::vector<Result<Reply>> replies(LineTime waited) const;
-    /// Index of the reply at which a chain of replies broke: those behind it may be there and well. -1: none.
-    int brokenAt() const;
+    /// Hands over what came: one entry per expected reply. `waited` is how long was waited for a reply that did not
+    /// come.
+    void finish(ExchangeResult &result, LineTime waited);
     const Observations &seen() const { return m_seen; }
 
 private:
     struct Slot {
+        enum class State { Open, Answered, Damaged, WrongLength, Doubtful };
         ExpectedReply expected;
-        std::optional<Reply> reply;
-        bool damaged = false;
-        std::optional<std::size_t> wrongLength;
-        bool passed() const { return reply || damaged || wrongLength; }
+        State state = State::Open;
+        Reply reply;
+        std::size_t length = 0; ///< of an answer of the wrong length
+        bool passed() const { return state != State::Open && state != State::Doubtful; }
+        bool answered() const { return state == State::Answered; }
     };
 
     void drain(LineTime at);
     void take(const Parser::Packet &packet, LineTime at);
-    void takeStatus(const StatusPacket &status, LineTime at);
-    void takeAnyone(const StatusPacket &status, LineTime at);
-    void takeDamaged(const Parser::Damaged &damaged, LineTime at);
+    void takeStatus(const Parser::Packet &status, LineTime at);
+    void takeAnyone(const Parser::Packet &status, LineTime at);
+    void takeFast(const Parser::Packet &packet, LineTime at);
+    void takeDamaged(ByteView raw, LineTime at);
     void salvageBlocks(ByteView raw, LineTime at);
-    void stray(std::uint8_t id);
+    bool isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at);
+    void accept(Slot &slot, std::uint8_t errorField, ByteView data, LineTime at, std::size_t bytes);
+    void stray(const Parser::Packet &packet, LineTime at);
+    int brokenAt() const;
     Slot *slotOf(std::uint8_t id);
     Error missing(const Slot &slot, bool blamed, LineTime waited) const;
 
-    const Request &m_request;
-    Bytes m_sent;
+    LateAnswers &m_late;
     Heard m_heard;
     Found m_found;
+    const Request *m_request = nullptr;
+    ByteView m_sent;
     Parser m_parser;
     std::vector<Slot> m_slots;
+    std::size_t m_slotCount = 0; ///< of m_slots, whose memory is kept, so many count
     Observations m_seen;
     std::optional<Parser::Pending> m_cutOff;
     std::optional<LineTime> m_lastPacketAt;
+    std::vector<Belated> m_belated;
     std::size_t m_answers = 0;
     bool m_echoExpected = false;
 };

@@ -83,6 +83,12 @@ Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want)
             .arg(device(id), bytesText(have), QString::number(want))};
 }
 
+Error onlyLate(std::uint8_t id)
+{
+    return {ErrorKind::LateAnswer,
+        QStringLiteral("%1 did not answer in time: what came may be its answer to an earlier request").arg(device(id))};
+}
+
 Error refused(std::uint8_t id, DeviceError error)
 {
     return {ErrorKind::Refused,
@@ -95,6 +101,11 @@ Error chainBroken(std::uint8_t id, std::uint8_t culprit)
     return {ErrorKind::NothingReceived,
         QStringLiteral("%1 was not heard: %2, asked before it, did not finish its answer")
             .arg(device(id), device(culprit))};
+}
+
+Error asleep(std::uint8_t id)
+{
+    return {ErrorKind::NothingReceived, QStringLiteral("%1 does not answer").arg(device(id))};
 }
 
 Error silentByLevel(std::uint8_t id, int statusReturnLevel)

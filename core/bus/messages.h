@@ -15,9 +15,11 @@ Error cutOff(std::uint8_t id, std::size_t have, std::size_t want);
 Error damagedCrc(std::uint8_t id);
 Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others);
 Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want);
+Error onlyLate(std::uint8_t id);
 Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);
+Error asleep(std::uint8_t id); ///< was silent for a while, and is asked rarely
 Error silentByLevel(std::uint8_t id, int statusReturnLevel);
 
 Error stopped();

@@ -36,7 +36,8 @@ bool isLost(const Error &error)
     case ErrorKind::CutOff:
     case ErrorKind::DamagedCrc:
     case ErrorKind::WrongId:
-    case ErrorKind::WrongLength: return true;
+    case ErrorKind::WrongLength:
+    case ErrorKind::LateAnswer: return true;
     default: return false;
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/poller.h"
 
+#include "core/bus/messages.h"
+
 #include <algorithm>
-#include <set>
 
 namespace dynascope {
 
@@ -10,9 +11,10 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int SilentCycles = 3; ///< as often missed, a device is asked rarely
-constexpr int FastFailures = 2; ///< as often, and it doesn't know fast reads
-constexpr int Passes = 3;       ///< of one cycle, while a broken chain hides devices
+constexpr int SilentCycles = 3;      ///< as often missed, a device is asked rarely
+constexpr int Failures = 2;          ///< as often, and it doesn't know this kind of read
+constexpr int Passes = 4;            ///< of one cycle, while a broken chain hides devices
+constexpr std::size_t Cycles = 16;   ///< kept ready: spans of a few intervals make as many kinds of cycles
 constexpr LineTime FirstBackOff = 100ms;
 constexpr LineTime LongestBackOff = 2s;
 
@@ -22,17 +24,12 @@ bool isSilence(const Error &error)
         || error.kind == ErrorKind::CutOff || error.kind == ErrorKind::WrongId;
 }
 
+bool isGroup(const Request &request)
+{
+    return request.shape == ReplyShape::InOrder || request.shape == ReplyShape::Fast;
+}
+
 } // namespace
-
-/// What is read in one cycle: positions in the plan and what each brought.
-struct Poller::Cycle {
-    std::vector<std::size_t> due;
-    std::vector<std::size_t> open; ///< of these, what has to be asked in the next pass
-    std::map<std::size_t, PollValue> values;
-    std::set<std::uint8_t> fastMissed; ///< did not answer a fast read in this cycle
-};
-
-Poller::Poller(Bus &bus) : m_bus(bus) { }
 
 void Poller::setPlan(PollPlan plan)
 {
@@ -42,21 +39,22 @@ void Poller::setPlan(PollPlan plan)
         const auto old = std::ranges::find(m_plan.spans, span);
         due.push_back(old == m_plan.spans.end() ? now : m_due[static_cast<std::size_t>(old - m_plan.spans.begin())]);
     }
-    for (auto it = m_devices.begin(); it != m_devices.end();) {
-        const auto before = std::ranges::find(m_plan.traits, it->first, &Traits::id);
-        const auto after = std::ranges::find(plan.traits, it->first, &Traits::id);
-        const bool same = before != m_plan.traits.end() && after != plan.traits.end() && *before == *after;
-        it = same ? std::next(it) : m_devices.erase(it);
+    for (std::size_t id = 0; id < m_devices.size(); ++id) {
+        const auto before = std::ranges::find(m_plan.traits, id, &Traits::id);
+        const auto after = std::ranges::find(plan.traits, id, &Traits::id);
+        if (before == m_plan.traits.end() || after == plan.traits.end() || *before != *after)
+            m_devices[id] = {};
     }
     m_plan = std::move(plan);
     m_due = std::move(due);
+    m_place.assign(m_plan.spans.size(), 0);
+    m_prepared.clear();
     m_bus.setTraits(m_plan.traits);
 }
 
 bool Poller::isSleeping(std::uint8_t id) const
 {
-    const auto state = m_devices.find(id);
-    return state != m_devices.end() && state->second.silent >= SilentCycles;
+    return m_devices[id].silent >= SilentCycles;
 }
 
 LineTime Poller::nextDue() const
@@ -64,7 +62,7 @@ LineTime Poller::nextDue() const
     LineTime next = LineTime::max();
     for (std::size_t i = 0; i < m_plan.spans.size(); ++i) {
         const std::uint8_t id = m_plan.spans[i].span.id;
-        const LineTime due = isSleeping(id) ? std::max(m_due[i], m_devices.at(id).probeAt) : m_due[i];
+        const LineTime due = isSleeping(id) ? std::max(m_due[i], m_devices[id].probeAt) : m_due[i];
         next = std::min(next, due);
     }
     return next;
@@ -73,56 +71,72 @@ LineTime Poller::nextDue() const
 Result<Batch> Poller::runCycle()
 {
     Batch batch;
+    if (Result<void> done = runCycle(batch); !done)
+        return tl::unexpected(done.error());
+    return batch;
+}
+
+Result<void> Poller::runCycle(Batch &batch)
+{
     batch.cycle = ++m_cycle;
     batch.begin = m_bus.line().now();
-    Cycle cycle;
-    if (Result<void> collected = collectDue(cycle); !collected)
-        return tl::unexpected(collected.error());
-    for (int pass = 1; pass <= Passes && !cycle.open.empty(); ++pass) {
-        if (Result<void> read = readPass(cycle, pass == Passes); !read)
-            return tl::unexpected(read.error());
+    batch.fullRate = false;
+    m_fastMissed.reset();
+    m_groupMissed.reset();
+    if (Result<void> collected = collectDue(batch); !collected)
+        return collected;
+    for (int pass = 1; pass <= Passes && !m_open.empty(); ++pass) {
+        if (Result<void> read = readPass(batch, pass); !read)
+            return read;
     }
-    schedule(cycle);
+    schedule();
     batch.end = m_bus.line().now();
-    for (auto &[index, value] : cycle.values) {
-        batch.fullRate = batch.fullRate || m_plan.spans[index].interval == 0ms;
-        batch.values.push_back(std::move(value));
-    }
-    return batch;
+    return {};
 }
 
 /// Those due; of the sleeping devices those that a Ping finds awake. Who was silent last time goes to the end of its
 /// group, where it breaks no chain.
-Result<void> Poller::collectDue(Cycle &cycle)
+Result<void> Poller::collectDue(Batch &batch)
 {
     const LineTime now = m_bus.line().now();
-    std::set<std::uint8_t> probed;
+    std::bitset<256> probed;
+    m_dueNow.clear();
+    m_open.clear();
     for (std::size_t i = 0; i < m_plan.spans.size(); ++i) {
-        const PollSpan &span = m_plan.spans[i];
+        const std::uint8_t id = m_plan.spans[i].span.id;
         if (m_due[i] > now)
             continue;
-        if (isSleeping(span.span.id)) {
-            if (m_devices[span.span.id].probeAt > now && !probed.contains(span.span.id))
+        if (isSleeping(id)) {
+            if (m_devices[id].probeAt > now && !probed.test(id))
                 continue;
-            if (probed.insert(span.span.id).second) {
-                if (Result<void> asked = probe(span.span.id); !asked)
+            if (!probed.test(id)) {
+                probed.set(id);
+                if (Result<void> asked = probe(id); !asked)
                     return asked;
             }
         }
-        cycle.due.push_back(i);
-        PollValue value;
+        m_dueNow.push_back(i);
+        batch.fullRate = batch.fullRate || m_plan.spans[i].interval == 0ms;
+        if (!isSleeping(id))
+            m_open.push_back(i);
+    }
+    batch.values.resize(m_dueNow.size());
+    for (std::size_t place = 0; place < m_dueNow.size(); ++place) {
+        const PollSpan &span = m_plan.spans[m_dueNow[place]];
+        m_place[m_dueNow[place]] = place;
+        PollValue &value = batch.values[place];
         value.device = span.device;
         value.address = span.span.address;
         value.length = span.span.length;
-        value.at = m_bus.line().now();
+        value.alert = false;
+        value.at = now;
+        value.data.clear();
         if (isSleeping(span.span.id))
-            value.error = {ErrorKind::NothingReceived, QStringLiteral("device %1 does not answer").arg(span.span.id)};
-        else
-            cycle.open.push_back(i);
-        cycle.values[i] = value;
+            value.error = messages::asleep(span.span.id);
     }
-    std::ranges::stable_sort(
-        cycle.open, {}, [this](std::size_t i) { return m_devices[m_plan.spans[i].span.id].silent; });
+    const auto isSilent = [this](std::size_t i) { return m_devices[m_plan.spans[i].span.id].silent > 0; };
+    if (std::ranges::any_of(m_open, isSilent))
+        std::ranges::stable_sort(m_open, {}, [this](std::size_t i) { return stateOf(i).silent; });
     return {};
 }
 
@@ -141,80 +155,132 @@ Result<void> Poller::probe(std::uint8_t id)
     return {};
 }
 
-std::vector<Traits> Poller::currentTraits(const Cycle &cycle) const
+std::vector<Traits> Poller::currentTraits() const
 {
     std::vector<Traits> traits = m_plan.traits;
     for (Traits &device : traits) {
-        const auto state = m_devices.find(device.id);
-        const bool refused = state != m_devices.end() && state->second.fastFailures >= FastFailures;
-        device.fastReads = device.fastReads && !refused && !cycle.fastMissed.contains(device.id);
+        const DeviceState &state = m_devices[device.id];
+        device.fastReads = device.fastReads && state.fastFailures < Failures && !m_fastMissed.test(device.id);
+        device.groupReads = state.groupFailures < Failures && !m_groupMissed.test(device.id);
     }
     return traits;
 }
 
-Result<void> Poller::readPass(Cycle &cycle, bool lastPass)
+std::vector<Poller::Step> Poller::planSteps(const Indices &open) const
 {
     std::vector<PollSpan> spans;
-    for (const std::size_t index : cycle.open)
+    for (const std::size_t index : open)
         spans.push_back(m_plan.spans[index]);
-    std::vector<std::size_t> again;
-    for (PlannedExchange planned : planExchanges(spans, currentTraits(cycle))) {
-        for (std::size_t &index : planned.indices)
-            index = cycle.open[index];
-        if (Result<void> done = runExchange(cycle, planned, again, lastPass); !done)
+    std::vector<Step> steps;
+    for (PlannedExchange &planned : planExchanges(spans, currentTraits())) {
+        Step step{std::move(planned.request), {}, {}};
+        step.packet = encode(step.request.packet);
+        for (const std::size_t index : planned.indices)
+            step.spans.push_back(open[index]);
+        steps.push_back(std::move(step));
+    }
+    return steps;
+}
+
+/// Cycles repeat: what they send is made once.
+const std::vector<Poller::Step> &Poller::stepsFor(const Indices &open)
+{
+    if (m_fastMissed.any() || m_groupMissed.any()) {
+        m_unusual = planSteps(open);
+        return m_unusual;
+    }
+    const auto known = std::ranges::find(m_prepared, open, &Prepared::open);
+    if (known != m_prepared.end())
+        return known->steps;
+    if (m_prepared.size() >= Cycles)
+        m_prepared.erase(m_prepared.begin());
+    m_prepared.push_back({open, planSteps(open)});
+    return m_prepared.back().steps;
+}
+
+Result<void> Poller::readPass(Batch &batch, int pass)
+{
+    m_again.clear();
+    m_last.clear();
+    const quint64 learned = m_learned;
+    const std::vector<Step> &steps = stepsFor(m_open);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (Result<void> done = runStep(batch, steps[i], pass); !done)
             return done;
     }
-    cycle.open = std::move(again);
+    if (learned != m_learned)
+        m_prepared.clear(); // made for devices as they were thought to be
+    m_again.insert(m_again.end(), m_last.begin(), m_last.end());
+    m_open.swap(m_again);
     return {};
 }
 
-Result<void> Poller::runExchange(
-    Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass)
+Result<void> Poller::runStep(Batch &batch, const Step &step, int pass)
 {
-    Result<ExchangeResult> result = m_bus.exchange(planned.request, 0);
-    if (!result)
-        return tl::unexpected(result.error());
-    std::vector<std::size_t> last;
-    for (std::size_t i = 0; i < planned.indices.size(); ++i) {
-        const std::size_t index = planned.indices[i];
-        const std::uint8_t id = m_plan.spans[index].span.id;
-        Result<Reply> &reply = result->replies[i];
-        PollValue &value = cycle.values[index];
-        value.at = m_bus.line().now();
-        if (reply) {
-            value.data = std::move(reply->data);
-            value.error = {};
-            value.alert = reply->alert;
-            value.at = reply->at;
-            answered(id, cycle.fastMissed.contains(id));
+    if (Result<void> done = m_bus.exchangeInto(step.request, step.packet, m_result); !done)
+        return done;
+    for (std::size_t place = 0; place < step.spans.size(); ++place) {
+        const std::size_t span = step.spans[place];
+        Result<Reply> &reply = m_result.replies[place];
+        PollValue &value = batch.values[m_place[span]];
+        if (!reply) {
+            value.error = reply.error();
+            value.at = m_bus.line().now();
+            takeFailure(step, place, pass);
             continue;
         }
-        value.error = reply.error();
-        const bool hidden = result->brokenAt >= 0 && static_cast<int>(i) > result->brokenAt;
-        if (hidden) {
-            if (!lastPass)
-                again.push_back(index);
-            continue;
-        }
-        if (!isSilence(reply.error()))
-            continue;
-        const bool tryPlain = planned.request.shape == ReplyShape::Fast && !lastPass;
-        if (tryPlain && cycle.fastMissed.insert(id).second)
-            last.push_back(index); // perhaps it doesn't know fast reads
-        else
-            missed(id);
+        value.data.swap(reply->data);
+        value.error = {};
+        value.alert = reply->alert;
+        value.at = reply->at;
+        answered(m_plan.spans[span].span.id, step);
     }
-    again.insert(again.end(), last.begin(), last.end());
     return {};
 }
 
-void Poller::answered(std::uint8_t id, bool afterFastFailure)
+/// Hidden by another one's silence: again. Silent itself: again with a plainer read, if it may be that it doesn't know
+/// this one. Else it is missing.
+void Poller::takeFailure(const Step &step, std::size_t place, int pass)
+{
+    const std::size_t span = step.spans[place];
+    const std::uint8_t id = m_plan.spans[span].span.id;
+    const bool lastPass = pass == Passes;
+    if (m_result.brokenAt >= 0 && static_cast<int>(place) > m_result.brokenAt) {
+        if (!lastPass)
+            m_again.push_back(span);
+        return;
+    }
+    if (!isSilence(m_result.replies[place].error()))
+        return;
+    const bool fast = step.request.shape == ReplyShape::Fast;
+    const DeviceState &state = m_devices[id];
+    std::bitset<256> &missedNow = fast ? m_fastMissed : m_groupMissed;
+    const bool proven = fast ? state.fastProven : state.groupProven;
+    if (isGroup(step.request) && !proven && !lastPass && !missedNow.test(id)) {
+        missedNow.set(id);
+        m_last.push_back(span);
+    } else {
+        missed(id);
+    }
+}
+
+void Poller::answered(std::uint8_t id, const Step &step)
 {
     DeviceState &state = m_devices[id];
     state.silent = 0;
     state.backOff = {};
-    if (afterFastFailure)
-        ++state.fastFailures;
+    state.fastProven = state.fastProven || step.request.shape == ReplyShape::Fast;
+    state.groupProven = state.groupProven || isGroup(step.request);
+    if (m_groupMissed.test(id) && !isGroup(step.request))
+        learnRefusal(state.groupFailures);
+    else if (m_fastMissed.test(id) && step.request.shape != ReplyShape::Fast)
+        learnRefusal(state.fastFailures);
+}
+
+void Poller::learnRefusal(int &failures)
+{
+    if (++failures == Failures)
+        ++m_learned;
 }
 
 void Poller::missed(std::uint8_t id)
@@ -227,10 +293,10 @@ void Poller::missed(std::uint8_t id)
     state.probeAt = m_bus.line().now() + state.backOff;
 }
 
-void Poller::schedule(Cycle &cycle)
+void Poller::schedule()
 {
     const LineTime now = m_bus.line().now();
-    for (const std::size_t index : cycle.due) {
+    for (const std::size_t index : m_dueNow) {
         const LineTime interval = m_plan.spans[index].interval;
         m_due[index] += interval;
         if (m_due[index] < now) // what was missed is not made up for

@@ -3,52 +3,83 @@
 
 #include "core/bus/poll_values.h"
 
-#include <map>
+#include <array>
+#include <bitset>
 
 namespace dynascope {
 
 /// Runs a PollPlan cycle by cycle. Bus thread; no timer of its own: whoever owns it asks when the next cycle is due.
 ///
-/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself; a device that
-/// does not know fast reads falls back to Sync Read for as long as its traits stay.
+/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself. Of fast, sync and
+/// single reads each device gets the fastest that it answers; what was learned of that ends with its firmware.
 class Poller
 {
 public:
-    explicit Poller(Bus &bus);
+    explicit Poller(Bus &bus) : m_bus(bus) { }
 
     void setPlan(PollPlan plan);
     bool isIdle() const { return m_plan.spans.empty(); }
 
     /// When something is due next; `now` or before: at once.
     LineTime nextDue() const;
-    /// Reads what is due. Error only where the line itself failed or STOP was pressed.
+    /// Reads what is due. Error only where the line itself failed or STOP was pressed. A batch that is handed in again
+    /// lends its memory: a cycle like the one before allocates nothing.
+    Result<void> runCycle(Batch &batch);
     Result<Batch> runCycle();
 
 private:
+    using Indices = std::vector<std::size_t>; ///< of spans of the plan
+
     struct DeviceState {
-        int silent = 0;       ///< cycles without an answer in a row
-        LineTime probeAt{};   ///< while silent: when to ask again
-        LineTime backOff{};   ///< until the probe after that
-        int fastFailures = 0; ///< fast reads that failed where a plain one brought the value
+        int silent = 0;          ///< cycles without an answer in a row
+        LineTime probeAt{};      ///< while silent: when to ask again
+        LineTime backOff{};      ///< until the probe after that
+        bool fastProven = false;  ///< has answered a fast read
+        bool groupProven = false; ///< has answered a group read
+        int fastFailures = 0;     ///< fast reads that failed where a plain one brought the value
+        int groupFailures = 0;    ///< group reads that failed where a single one did
     };
-    struct Cycle;
+    /// A request made ready, and the spans it answers, in reply order.
+    struct Step {
+        Request request;
+        Bytes packet;
+        Indices spans;
+    };
+    struct Prepared {
+        Indices open;
+        std::vector<Step> steps;
+    };
 
     bool isSleeping(std::uint8_t id) const;
+    DeviceState &stateOf(std::size_t span) { return m_devices[m_plan.spans[span].span.id]; }
     Result<void> probe(std::uint8_t id);
-    Result<void> collectDue(Cycle &cycle);
-    Result<void> readPass(Cycle &cycle, bool lastPass);
-    Result<void> runExchange(
-        Cycle &cycle, const PlannedExchange &planned, std::vector<std::size_t> &again, bool lastPass);
-    void answered(std::uint8_t id, bool afterFastFailure);
+    Result<void> collectDue(Batch &batch);
+    const std::vector<Step> &stepsFor(const Indices &open);
+    std::vector<Step> planSteps(const Indices &open) const;
+    Result<void> readPass(Batch &batch, int pass);
+    Result<void> runStep(Batch &batch, const Step &step, int pass);
+    void takeFailure(const Step &step, std::size_t place, int pass);
+    void answered(std::uint8_t id, const Step &step);
+    void learnRefusal(int &failures);
     void missed(std::uint8_t id);
-    void schedule(Cycle &cycle);
-    std::vector<Traits> currentTraits(const Cycle &cycle) const;
+    void schedule();
+    std::vector<Traits> currentTraits() const;
 
     Bus &m_bus;
     PollPlan m_plan;
-    std::vector<LineTime> m_due; ///< per span of the plan
-    std::map<std::uint8_t, DeviceState> m_devices;
+    std::vector<LineTime> m_due;                 ///< per span of the plan
+    std::vector<std::size_t> m_place;            ///< per span of the plan: its value in the batch
+    std::array<DeviceState, 256> m_devices;      ///< by ID
+    std::vector<Prepared> m_prepared;            ///< of cycles as they were before
     quint64 m_cycle = 0;
+    quint64 m_learned = 0; ///< how often a device turned out not to know a kind of read
+
+    // Of the cycle that runs.
+    Indices m_dueNow, m_open, m_again, m_last;
+    std::bitset<256> m_fastMissed;  ///< did not answer a fast read in this cycle
+    std::bitset<256> m_groupMissed; ///< nor a plain group read
+    ExchangeResult m_result;
+    std::vector<Step> m_unusual; ///< steps that are not worth keeping
 };
 
 } // namespace dynascope

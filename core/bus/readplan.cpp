@@ -36,7 +36,7 @@ public:
         Indices open;
         for (std::size_t i = 0; i < m_spans.size(); ++i)
             open.push_back(i);
-        open = takeMute(open);
+        open = takeLone(open);
         open = takeSync(open);
         takeBulk(open);
         return std::move(m_result);
@@ -45,12 +45,12 @@ public:
 private:
     Traits traits(std::size_t index) const { return traitsOf(m_spans[index].id, m_traits); }
 
-    /// A device that answers nothing but Ping would break every chain: it stays alone.
-    Indices takeMute(const Indices &open)
+    /// A device that answers nothing but Ping, or no group read, would break every chain: it stays alone.
+    Indices takeLone(const Indices &open)
     {
         Indices rest;
         for (const std::size_t i : open) {
-            if (traits(i).statusReturnLevel < 1)
+            if (traits(i).statusReturnLevel < 1 || !traits(i).groupReads)
                 addSingle(i);
             else
                 rest.push_back(i);

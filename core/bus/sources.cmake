@@ -2,15 +2,19 @@ target_sources(dynascope_core PRIVATE
     bus/bus.cpp bus/bus.h bus/bus_values.h
     bus/busthread.cpp bus/busthread.h
     bus/busworker.cpp bus/busworker.h
+    bus/channel.cpp bus/channel.h
     bus/collector.cpp bus/collector.h
     bus/jobcontext.h
     bus/jobqueue.cpp bus/jobqueue.h
+    bus/lateanswers.cpp bus/lateanswers.h
+    bus/learnedtiming.cpp bus/learnedtiming.h
     bus/line.h bus/linefactory.h bus/traits.h
     bus/messages.cpp bus/messages.h
     bus/operations.cpp bus/operations.h
     bus/outbox.cpp bus/outbox.h
     bus/poll_values.h
     bus/poller.cpp bus/poller.h
+    bus/quality.cpp bus/quality.h
     bus/readplan.cpp bus/readplan.h
     bus/remainder.cpp bus/remainder.h
     bus/scan.cpp

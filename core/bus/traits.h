@@ -13,7 +13,9 @@ struct Traits {
     int baudRate = 57600;                       ///< bits per second
     std::chrono::microseconds returnDelay{508}; ///< 508 µs until Return Delay Time has been read
     std::uint8_t statusReturnLevel = 2;         ///< 0 Ping only, 1 Ping and Read, 2 all
+    int firmware = -1;                          ///< what was learned of a device holds for this; −1: not known
     bool fastReads = false;                     ///< Fast Sync Read and Fast Bulk Read, by model and firmware
+    bool groupReads = true;                     ///< Sync Read and Bulk Read
     int receiveBuffer = 1024;                   ///< bytes
 
     friend bool operator==(const Traits &, const Traits &) = default;

@@ -30,6 +30,7 @@ Traits Device::traits() const
         traits.returnDelay = std::chrono::microseconds(*delay * 2 + 8);
     if (const auto level = raw(u"Status Return Level"))
         traits.statusReturnLevel = static_cast<std::uint8_t>(*level);
+    traits.firmware = m_found.firmware;
     traits.fastReads = m_table->hasFastReads(m_found.firmware);
     return traits;
 }

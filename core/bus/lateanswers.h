@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/bus_values.h"
+
+#include <optional>
+
+namespace dynascope {
+
+/// The answers that were asked for, did not come in time and may still come. A status packet has no sequence number:
+/// a late one looks like the answer to the next request of the same device and length. But adapters that delay keep the
+/// order, so one answer that can be no late one proves that nothing older is under way.
+class LateAnswers
+{
+public:
+    bool isEmpty() const { return m_entries.empty(); }
+    /// Something that can be no late answer came: nothing older than its request will.
+    void clear() { m_entries.clear(); }
+
+    /// No adapter and no network holds an answer back for longer than this: what was not heard by then was lost.
+    static constexpr LineTime Longest = std::chrono::seconds(10);
+    void forgetOld(LineTime now);
+
+    /// What of `result` is missing may still come. `origin` is from when on it could be awaited.
+    void addMissing(const Request &request, const ExchangeResult &result, LineTime origin);
+    /// Whoever is there may still answer a broadcast Ping.
+    void addPings(LineTime origin);
+    /// All that `request` asks for: it was given up.
+    void addAll(const Request &request, LineTime origin);
+
+    /// May this status packet be one of them? An error comes without data, whatever was asked for; Ping knows none.
+    bool couldBe(std::uint8_t id, std::size_t length, bool isError) const;
+    bool couldBePing(std::uint8_t id) const; ///< may an answer to Ping be one of them?
+    bool couldBeFast(std::size_t packetSize) const;
+    /// May the first answer to `request` be mistaken?
+    bool concern(const Request &request) const;
+    /// A number of bytes that no late answer of this device has: what a Read of as many brings is its own answer.
+    std::uint16_t distinctLength(std::uint8_t id) const;
+    /// From when on a status packet like this one could be awaited.
+    std::optional<LineTime> originOf(std::uint8_t id, std::size_t length) const;
+
+private:
+    struct Entry {
+        std::uint8_t id = 0; ///< BroadcastId: of anybody
+        std::size_t length = 0; ///< data bytes; of a fast reply the whole packet's
+        enum class Kind { Plain, Ping, Fast } kind = Kind::Plain;
+        LineTime origin{};
+    };
+    void add(const Entry &entry);
+    static Entry::Kind kindOf(const Request &request);
+
+    std::vector<Entry> m_entries; ///< no two alike: as many as there are kinds of requests
+};
+
+} // namespace dynascope

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/line.h"
+
+#include <array>
+#include <memory>
+
+namespace dynascope {
+
+/// What the answers so far teach about when the next one will come: how much later than the device's registers say its
+/// first byte comes, on account of adapter, host and device. Estimated as round trips of TCP are (RFC 6298): mean and
+/// mean deviation. Bounded: what is learned can't make a wait endless, nor shorter than the wire's own time.
+class LearnedTiming
+{
+public:
+    /// Later than this nothing is waited for, whatever was seen.
+    static constexpr LineTime Longest = std::chrono::milliseconds(100);
+
+    /// An answer of `id` began `lateness` after it could have at the earliest by its Return Delay Time.
+    void learn(std::uint8_t id, LineTime lateness);
+
+    /// How much later than its registers say an answer of `id` is to be waited for. `allowance` is what the line itself
+    /// asks for, and what holds until enough has been seen.
+    LineTime allowance(std::uint8_t id, LineTime allowance) const;
+
+private:
+    struct Estimate {
+        LineTime mean{}, deviation{};
+        int samples = 0;
+        void add(LineTime sample);
+    };
+    static constexpr std::size_t Ids = 256;
+
+    Estimate m_line;
+    std::array<Estimate, Ids> m_devices{};
+};
+
+} // namespace dynascope
