@@ -88,8 +88,7 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
 {
     if (Result<void> ready = prepare(); !ready)
         return ready;
-    const bool isPing = request.packet.instruction == Instruction::Ping;
-    if (!isPing && m_late.concern(request) && !isMute(request, request.replies.front().id)) {
+    if (m_late.concern(request) && !isMute(request, request.replies.front().id)) {
         const Result<std::optional<Error>> silence = fence(request.replies.front().id);
         if (!silence)
             return tl::unexpected(silence.error());

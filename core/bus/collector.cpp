@@ -123,8 +123,8 @@ void Collector::takeStatus(const Parser::Packet &status, LineTime at)
     accept(*slot, status.errorField, status.parameters, at, status.raw.size());
 }
 
-/// Is it an answer that may be an earlier request's? Then the right one may follow. An answer to Ping says the same
-/// whenever it comes; but it proves nothing of what else is under way.
+/// Is it an answer that may be an earlier request's? Then the right one may follow. An answer to an earlier Ping says
+/// what one to this says; but it proves nothing of what else is under way.
 bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at)
 {
     const bool isError = (status.errorField & ~AlertBit) != 0;
@@ -134,7 +134,8 @@ bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at
             m_late.clear();
         return false;
     }
-    if (m_request->packet.instruction == Instruction::Ping && !isError && length == slot.expected.length)
+    if (m_request->packet.instruction == Instruction::Ping && !isError && length == slot.expected.length
+        && !m_late.couldFakePing(status.id))
         return false;
     if (!isError && length != slot.expected.length)
         m_belated.push_back({status.id, at - m_late.originOf(status.id, length).value_or(at)});
@@ -146,7 +147,7 @@ bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at
 
 void Collector::takeAnyone(const Parser::Packet &status, LineTime at)
 {
-    if (status.parameters.size() != PingReplyLength || slotOf(status.id)) {
+    if (status.parameters.size() != PingReplyLength || slotOf(status.id) || m_late.couldFakePing(status.id)) {
         stray(status, at); // a second answer under one ID: two devices share it
         return;
     }

@@ -79,6 +79,13 @@ bool LateAnswers::couldBePing(std::uint8_t id) const
     return couldBe(id, PingLength, false);
 }
 
+bool LateAnswers::couldFakePing(std::uint8_t id) const
+{
+    return std::ranges::any_of(m_entries, [id](const Entry &entry) {
+        return entry.kind == Entry::Kind::Plain && entry.id == id && entry.length == PingLength;
+    });
+}
+
 bool LateAnswers::couldBeFast(std::size_t packetSize) const
 {
     return std::ranges::any_of(
@@ -92,6 +99,8 @@ bool LateAnswers::concern(const Request &request) const
     if (request.shape == ReplyShape::Fast)
         return couldBeFast(request.maximumReplySize());
     const ExpectedReply &first = request.replies.front();
+    if (request.packet.instruction == Instruction::Ping)
+        return couldFakePing(first.id);
     return couldBe(first.id, first.length, false) || couldBe(first.id, first.length, true);
 }
 

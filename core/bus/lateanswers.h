@@ -30,7 +30,9 @@ public:
 
     /// May this status packet be one of them? An error comes without data, whatever was asked for; Ping knows none.
     bool couldBe(std::uint8_t id, std::size_t length, bool isError) const;
-    bool couldBePing(std::uint8_t id) const; ///< may an answer to Ping be one of them?
+    bool couldBePing(std::uint8_t id) const; ///< may what looks like an answer to Ping be one of them?
+    /// May what looks like an answer to Ping be one of them, and not one to Ping, which says the same at any time?
+    bool couldFakePing(std::uint8_t id) const;
     bool couldBeFast(std::size_t packetSize) const;
     /// May the first answer to `request` be mistaken?
     bool concern(const Request &request) const;
