@@ -161,7 +161,7 @@ std::vector<Traits> Poller::currentTraits() const
     for (Traits &device : traits) {
         const DeviceState &state = m_devices[device.id];
         device.fastReads = device.fastReads && state.fastFailures < Failures && !m_fastMissed.test(device.id);
-        device.groupReads = state.groupFailures < Failures && !m_groupMissed.test(device.id);
+        device.groupReads = device.groupReads && state.groupFailures < Failures && !m_groupMissed.test(device.id);
     }
     return traits;
 }

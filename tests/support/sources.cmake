@@ -5,6 +5,7 @@ target_sources(dynascope_test_support PRIVATE
     support/fakeservos.cpp support/fakeservos.h
     support/hostileline.cpp support/hostileline.h
     support/hex.cpp support/hex.h
+    support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
     support/sessionfixture.h
     support/simclient.h
