@@ -187,7 +187,8 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
     if (request.isWrite() || request.shape == ReplyShape::Anyone || result.replies.empty() || !result.replies.front())
         return;
     const Reply &first = *result.replies.front();
-    if (first.bytes == 0)
+    const bool cut = request.shape == ReplyShape::Fast && result.brokenAt >= 0; // nobody knows where it ended
+    if (first.bytes == 0 || cut)
         return;
     const std::size_t bytes = request.shape == ReplyShape::Fast ? request.maximumReplySize() : first.bytes;
     m_timing.learn(first.id, first.at - times(bytes, byteTime) - sent - traits(first.id).returnDelay);
@@ -211,8 +212,10 @@ Result<void> Bus::prepare()
     m_late.forgetOld(m_channel.now());
     if (!m_unsettled)
         return {};
-    const LineTime quiet = std::max<LineTime>(1500us, 10 * m_channel.line().byteTime());
-    if (Result<void> settled = m_channel.settle(quiet, SettleLimit, Channel::Heed::Stop); !settled)
+    const LineTime quiet = timing::silence(m_channel.line());
+    const LineTime sofar = std::max(LineTime(), m_channel.now() - std::max(m_channel.lastByteAt(), m_channel.sentBy()));
+    if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit, Channel::Heed::Stop);
+        !settled)
         return settled;
     m_unsettled = false;
     return {};
@@ -237,14 +240,9 @@ Result<void> Bus::sendOnly(ByteView packet)
 Result<void> Bus::listen(const Request &request, Waiting &waiting)
 {
     const Line &line = m_channel.line();
-    const LineTime longest = times(request.maximumReplySize(), line.byteTime());
-    const LineTime each = timing::silence(line) + timing::processing(request.packet.instruction) + 1ms
-        + (request.replies.empty() ? LineTime() : m_timing.allowance(request.replies.front().id, line.hostAllowance()));
-    waiting.limit = waiting.origin + 2 * longest + times(std::max<std::size_t>(1, request.replies.size()), each);
-    if (request.shape == ReplyShape::Anyone)
-        waiting.limit += (MaximumId + 1) * timing::SlotOfBroadcastPing;
     if (request.shape == ReplyShape::None && !m_echoes)
         return m_channel.waitUntil(waiting.sent, Channel::Heed::Stop);
+    waiting.limit = longestWait(request, waiting);
     while (!m_collector.isComplete()) {
         if (isStopped())
             return tl::unexpected(messages::stopped());
@@ -253,9 +251,9 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
         const LineTime now = m_channel.now();
         LineTime until = deadline(request, waiting);
         if (m_collector.isMidPacket()) {
-            until = std::min(waiting.lastByte + timing::silence(line), waiting.limit);
+            until = std::min(waiting.lastByte + timing::silence(line) + allowance(request), waiting.limit);
             if (now >= until) {
-                m_collector.giveUp(now);
+                m_collector.giveUp(waiting.lastByte);
                 continue;
             }
         } else {
@@ -272,29 +270,52 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
             continue;
         waiting.lastByte = m_channel.now();
         m_collector.feed(*received, waiting.lastByte);
-        if (const auto packetAt = m_collector.lastPacketAt(); packetAt && request.shape != ReplyShape::Anyone)
+        if (const auto packetAt = m_collector.lastPacketAt())
             waiting.origin = std::max(waiting.origin, *packetAt);
     }
     return {};
 }
 
+/// However it babbles: no exchange takes longer.
+LineTime Bus::longestWait(const Request &request, const Waiting &waiting) const
+{
+    const Line &line = m_channel.line();
+    const LineTime longest = times(request.maximumReplySize(), line.byteTime());
+    const LineTime each =
+        timing::silence(line) + timing::processing(request.packet.instruction) + allowance(request) + 1ms;
+    const LineTime turns =
+        request.shape == ReplyShape::Anyone ? (waiting.highestId + 1) * timing::SlotOfBroadcastPing : LineTime();
+    return waiting.origin + 2 * longest + turns + times(std::max<std::size_t>(1, request.replies.size()), each);
+}
+
+/// How much later than its registers say the next answer is waited for.
+LineTime Bus::allowance(const Request &request) const
+{
+    const LineTime host = m_channel.line().hostAllowance();
+    if (request.replies.empty())
+        return host;
+    return m_timing.allowance(request.replies[m_collector.position()].id, host);
+}
+
 /// Reference "Time": return delay, processing and host from the end of the request, or of the predecessor's packet.
 LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
 {
-    const Line &line = m_channel.line();
     const LineTime processing = timing::processing(request.packet.instruction);
     if (request.shape == ReplyShape::None)
-        return waiting.origin + line.hostAllowance() + processing;
+        return waiting.origin + allowance(request) + processing;
     if (request.shape == ReplyShape::Anyone) {
-        const LineTime reply = times(timing::largestStatus(3), line.byteTime()) + Traits().returnDelay;
-        return waiting.origin + line.hostAllowance() + processing
-            + (waiting.highestId + 1) * timing::SlotOfBroadcastPing + times(m_collector.answers(), reply);
+        // Behind the answer of one ID come the slots of those above it. The last of them may hold an answer.
+        const LineTime answer = Traits().returnDelay + times(timing::largestStatus(3), m_channel.line().byteTime());
+        const auto heard = static_cast<int>(m_collector.answers());
+        const LineTime all = waiting.sent + (waiting.highestId + 1 - heard) * timing::SlotOfBroadcastPing;
+        const LineTime rest =
+            waiting.origin + (waiting.highestId - m_collector.lastId()) * timing::SlotOfBroadcastPing;
+        return std::max(all, rest) + allowance(request) + processing + answer;
     }
     const std::uint8_t next = request.replies[m_collector.position()].id;
-    const LineTime host = m_timing.allowance(next, line.hostAllowance());
-    const LineTime firstByte = 2 * line.byteTime();
+    const LineTime firstByte = 2 * m_channel.line().byteTime();
     // Nothing is expected of a device that is told to be silent: no need to wait until it has written its EEPROM.
-    return waiting.origin + host + traits(next).returnDelay + firstByte
+    return waiting.origin + allowance(request) + traits(next).returnDelay + firstByte
         + (isMute(request, next) ? timing::processing(Instruction::Read) : processing);
 }
 

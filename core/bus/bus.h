@@ -89,6 +89,8 @@ private:
     Result<void> listen(const Request &request, Waiting &waiting);
     Result<LineTime> begin(ByteView packet);
     LineTime deadline(const Request &request, const Waiting &waiting) const;
+    LineTime longestWait(const Request &request, const Waiting &waiting) const;
+    LineTime allowance(const Request &request) const;
     bool isMute(const Request &request, std::uint8_t id) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);

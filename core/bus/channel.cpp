@@ -33,6 +33,8 @@ Result<ByteView> Channel::receive(LineTime until)
     m_received.clear();
     if (Result<void> read = keep(m_line.read(m_received, until)); !read)
         return tl::unexpected(read.error());
+    if (!m_received.empty())
+        m_lastByteAt = m_line.now();
     return ByteView(m_received);
 }
 

@@ -23,6 +23,7 @@ public:
     /// Hands a packet to the port; returns when it begins to leave. Looks at no stop flag.
     Result<LineTime> send(ByteView packet);
     LineTime sentBy() const { return m_sentBy; } ///< when the last byte of the last packet has left
+    LineTime lastByteAt() const { return m_lastByteAt; } ///< when something came last
     ByteView lastSent() const { return m_lastSent; }
 
     /// What came until `until`, or at once where something did; valid until the next call. May be nothing.
@@ -51,7 +52,7 @@ private:
     const std::atomic<bool> *m_stop;
     std::optional<Error> m_lost;
     Bytes m_received, m_lastSent;
-    LineTime m_sentBy{};
+    LineTime m_sentBy{}, m_lastByteAt{};
     quint64 m_bytesSent = 0, m_bytesDiscarded = 0;
 };
 

@@ -258,6 +258,14 @@ bool Collector::isComplete() const
     return true;
 }
 
+int Collector::lastId() const
+{
+    int last = -1;
+    for (std::size_t i = 0; i < m_slotCount; ++i)
+        last = std::max(last, static_cast<int>(m_slots[i].expected.id));
+    return last;
+}
+
 std::size_t Collector::position() const
 {
     for (std::size_t i = m_slotCount; i > 0; --i) {

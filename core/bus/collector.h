@@ -32,7 +32,8 @@ public:
     void feed(ByteView bytes, LineTime at);
 
     bool isMidPacket() const { return !m_parser.buffered().empty(); }
-    /// What began has fallen silent: remembers it as cut off and goes on behind its first byte.
+    /// What began has fallen silent: remembers it as cut off and goes on behind its first byte. `at` is when the last
+    /// byte had come.
     void giveUp(LineTime at);
 
     bool isComplete() const;
@@ -47,6 +48,7 @@ public:
     };
     const std::vector<Belated> &belated() const { return m_belated; }
     std::size_t answers() const { return m_answers; }
+    int lastId() const; ///< with ReplyShape::Anyone: the highest that has answered; −1: none yet
 
     /// Hands over what came: one entry per expected reply. `waited` is how long was waited for a reply that did not
     /// come.

@@ -52,6 +52,29 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
     return QString();
 }
 
+/// A Ping for each, one right after the other. Is it sure that each is one healthy device? Else they are worth a second
+/// look, one by one.
+Result<bool> confirmAll(Bus &bus, const std::vector<Found> &devices)
+{
+    const quint64 before = bus.statistics().bytesReceived;
+    quint64 heard = 0;
+    bool clean = true;
+    for (const Found &found : devices) {
+        const Result<ExchangeResult> answer = bus.exchange(pingRequest(found.id), 0);
+        if (!answer)
+            return tl::unexpected(answer.error());
+        const Result<Reply> &reply = answer->replies.front();
+        const Observations &seen = answer->seen;
+        heard += seen.bytesReceived;
+        clean = clean && reply && foundFrom(*reply, found.baudRate).modelNumber == found.modelNumber
+            && seen.strayPackets == 0 && seen.damagedPackets == 0 && seen.noiseBytes == 0;
+    }
+    const LineTime listen = bus.line().hostAllowance() + 1500us;
+    if (Result<void> listened = bus.settle(listen, listen + 10ms); !listened)
+        return tl::unexpected(listened.error());
+    return clean && bus.statistics().bytesReceived - before == heard; // and nothing came in between
+}
+
 /// Who may be behind answers that could not be read: the IDs in damaged packets, else the usual ones.
 std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Found> &known, int firstId, int lastId)
 {
@@ -108,7 +131,12 @@ Result<std::vector<Found>> scanBaud(Bus &bus, int firstId, int lastId, const std
     if (!answers)
         return tl::unexpected(answers.error());
     const std::vector<std::uint8_t> &twice = answers->seen.strayIds;
+    const Result<bool> sure = confirmAll(bus, devices);
+    if (!sure)
+        return tl::unexpected(sure.error());
     for (Found &device : devices) {
+        if (*sure && twice.empty())
+            break;
         Result<QString> doubt = doubtOf(bus, device);
         if (!doubt)
             return tl::unexpected(doubt.error());

@@ -23,7 +23,7 @@ LineTime processing(Instruction instruction)
 
 LineTime silence(const Line &line)
 {
-    return std::max<LineTime>(1500us, 10 * line.byteTime()) + line.hostAllowance();
+    return std::max<LineTime>(1500us, 10 * line.byteTime());
 }
 
 std::size_t largestStatus(std::size_t parameters)

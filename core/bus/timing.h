@@ -15,8 +15,8 @@ constexpr LineTime Slice = std::chrono::milliseconds(1);               ///< long
 /// milliseconds, Clear and Backup up to seconds.
 LineTime processing(Instruction instruction);
 
-/// A packet that began and is silent for longer than this is cut off: max(1.5 ms, 10 byte times) and what the host
-/// adds.
+/// A packet that began and is silent for longer than this is cut off: max(1.5 ms, 10 byte times). What the host adds
+/// comes on top.
 LineTime silence(const Line &line);
 
 /// Bytes of a status packet with that many parameters, stuffing at its worst.

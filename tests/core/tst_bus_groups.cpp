@@ -139,7 +139,7 @@ private slots:
         QCOMPARE(result->replies.size(), std::size_t(3));
         QCOMPARE(found.size(), std::size_t(3));
         QVERIFY(found[0].second < 2ms); // as they come
-        QVERIFY(line.now() >= 753ms && line.now() < 800ms);
+        QVERIFY(line.now() >= 750ms && line.now() < 760ms);
         QVERIFY(result->replies[1]->alert);
     }
 

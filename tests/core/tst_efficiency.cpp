@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/operations.h"
 #include "core/bus/poller.h"
 #include "core/sim/servo.h"
 #include "core/sim/simulatedline.h"
@@ -51,46 +52,65 @@ LineTime limitOf(Kind kind, int servos, LineTime byteTime)
     return {};
 }
 
+/// Servos at one rate without Return Delay Time, and a plan that reads ten bytes of each in every cycle.
+struct World {
+    World(const Catalog &catalog, Kind kind, int servos, int baudRate, LineTime dawdle = {})
+        : wire(catalog), simulated(wire, baudRate), line(simulated, dawdle), bus(line), poller(bus)
+    {
+        for (int id = 1; id <= servos; ++id) {
+            const auto specs = sim::parseServoSpecs(QStringLiteral("XM430-W350@%1:%2").arg(baudRate).arg(id), catalog);
+            if (!specs || !wire.add(specs->front()))
+                qFatal("no servo");
+            Traits traits;
+            traits.id = static_cast<std::uint8_t>(id);
+            traits.returnDelay = 0us;
+            traits.fastReads = kind == Kind::Fast;
+            traits.groupReads = kind != Kind::Single;
+            plan.traits.push_back(traits);
+            plan.spans.push_back({static_cast<quint32>(id), {traits.id, 126, Length}, 0ms});
+            if (!bus.exchange(writeRequest({traits.id, 9, {0}}))->replies.front()) // Return Delay Time
+                qFatal("no servo answers");
+        }
+        poller.setPlan(plan);
+    }
+    /// How long a cycle takes; how many values were missing is left in `missing`.
+    LineTime cycle()
+    {
+        const LineTime begin = line.now();
+        if (!poller.runCycle(batch))
+            qFatal("the line failed");
+        missing = std::ranges::count_if(batch.values, [](const PollValue &value) { return value.data.size() != Length; });
+        return line.now() - begin;
+    }
+
+    sim::SimulatedBus wire;
+    sim::SimulatedLine simulated;
+    DawdlingLine line;
+    Bus bus;
+    Poller poller;
+    PollPlan plan;
+    Batch batch;
+    std::ptrdiff_t missing = 0;
+};
+
 /// Limit / achieved cycle; 0 where a value was missing.
 double efficiency(const Catalog &catalog, Kind kind, int servos, int baudRate, LineTime dawdle = {})
 {
-    sim::SimulatedBus wire(catalog);
-    PollPlan plan;
-    for (int id = 1; id <= servos; ++id) {
-        const auto specs = sim::parseServoSpecs(QStringLiteral("XM430-W350@%1:%2").arg(baudRate).arg(id), catalog);
-        if (!specs || !wire.add(specs->front()))
-            return 0;
-        Traits traits;
-        traits.id = static_cast<std::uint8_t>(id);
-        traits.returnDelay = 0us;
-        traits.fastReads = kind == Kind::Fast;
-        traits.groupReads = kind != Kind::Single;
-        plan.traits.push_back(traits);
-        plan.spans.push_back({static_cast<quint32>(id), {traits.id, 126, Length}, 0ms});
-    }
-    sim::SimulatedLine simulated(wire, baudRate);
-    DawdlingLine line(simulated, dawdle);
-    Bus bus(line);
-    for (const Traits &traits : plan.traits) {
-        if (!bus.exchange(writeRequest({traits.id, 9, {0}}))->replies.front()) // Return Delay Time
-            return 0;
-    }
-    Poller poller(bus);
-    poller.setPlan(plan);
-    Batch batch;
+    World world(catalog, kind, servos, baudRate, dawdle);
     LineTime took{};
     for (int cycle = 0; cycle < Cycles; ++cycle) {
-        const LineTime begin = line.now();
-        if (!poller.runCycle(batch))
+        took += world.cycle();
+        if (world.missing > 0)
             return 0;
-        took += line.now() - begin;
-        for (const PollValue &value : batch.values) {
-            if (value.data.size() != Length)
-                return 0;
-        }
     }
-    return static_cast<double>((Cycles * limitOf(kind, servos, line.byteTime())).count())
+    return static_cast<double>((Cycles * limitOf(kind, servos, world.line.byteTime())).count())
         / static_cast<double>(took.count());
+}
+
+/// Lets a servo hear and speak at another rate, as good as unplugged.
+void takeAway(World &world, std::uint8_t id)
+{
+    QVERIFY(world.bus.exchange(writeRequest({id, 8, {1}}), 0)); // Baud Rate 57 600
 }
 
 } // namespace
@@ -143,6 +163,73 @@ private slots:
         QVERIFY(efficiency(*m_catalog, Kind::Fast, 6, 1'000'000) >= 0.98);
         QVERIFY(efficiency(*m_catalog, Kind::Fast, 6, 1'000'000, 200us) < 0.9);
         QVERIFY(efficiency(*m_catalog, Kind::Single, 6, 57'600, 1ms) < 0.9);
+    }
+
+    void aMissingServoCostsLittle_data()
+    {
+        QTest::addColumn<Kind>("kind");
+        QTest::addColumn<int>("missing");
+        for (const int missing : {1, 6, 12}) {
+            QTest::addRow("fast, %d of 12", missing) << Kind::Fast << missing;
+            QTest::addRow("sync, %d of 12", missing) << Kind::Sync << missing;
+            QTest::addRow("single, %d of 12", missing) << Kind::Single << missing;
+        }
+    }
+
+    /// On a line that may be as slow as an FTDI adapter as it comes, and isn't.
+    void aMissingServoCostsLittle()
+    {
+        QFETCH(Kind, kind);
+        QFETCH(int, missing);
+        World world(*m_catalog, kind, 12, 1'000'000);
+        world.simulated.setHostAllowance(21ms);
+        LineTime whole{};
+        for (int i = 0; i < 50; ++i)
+            whole = world.cycle();
+        takeAway(world, static_cast<std::uint8_t>(missing));
+        LineTime worst{};
+        int cycles = 0;
+        for (; cycles < 3; ++cycles) {
+            worst = std::max(worst, world.cycle() - whole);
+            QCOMPARE(world.missing, 1);
+        }
+        qInfo("%.2f ms more, of %.2f ms", static_cast<double>(worst / 1us) / 1000, static_cast<double>(whole / 1us) / 1000);
+        QVERIFY(worst <= 5ms);
+        const LineTime begin = world.line.now() + 10s; // the probes have become rare
+        while (world.line.now() < begin)
+            (void)world.cycle();
+        LineTime later{};
+        for (cycles = 0; world.line.now() < begin + 10s; ++cycles)
+            later += world.cycle();
+        QVERIFY(later / cycles < whole + whole / 100);
+    }
+
+    void aScanTakesItsSlots_data()
+    {
+        QTest::addColumn<int>("baudRate");
+        QTest::addColumn<int>("servos");
+        for (const int baudRate : {57'600, 1'000'000, 4'000'000}) {
+            for (const int servos : {0, 1, 10, 40})
+                QTest::addRow("%d baud, %d servos", baudRate, servos) << baudRate << servos;
+        }
+    }
+
+    void aScanTakesItsSlots()
+    {
+        QFETCH(int, baudRate);
+        QFETCH(int, servos);
+        World world(*m_catalog, Kind::Sync, servos, baudRate);
+        const LineTime byteTime = world.line.byteTime();
+        const LineTime begin = world.line.now();
+        const auto found = scanBaud(world.bus, 0, MaximumId, {});
+        QVERIFY(found);
+        QCOMPARE(found->size(), std::size_t(servos));
+        const auto n = static_cast<LineTime::rep>(servos);
+        const LineTime limit = 10 * byteTime + (253 - n) * 3ms + n * (14 * byteTime + Processing)
+            + n * (24 * byteTime + Processing); // the confirmation: a Ping and its answer
+        const double part = static_cast<double>((world.line.now() - begin).count()) / static_cast<double>(limit.count());
+        qInfo("%.4f of what the slots ask for", part);
+        QVERIFY2(part <= 1.02, qPrintable(QString::number(part)));
     }
 };
 

@@ -180,15 +180,19 @@ void HostileLine::reply(Bytes packet, LineTime begin)
 
 void HostileLine::damage(Bytes &packet)
 {
-    const auto flip = [&](std::size_t bit) { packet[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8)); };
+    // Bits in the CRC's order, highest first: a burst is one by that order.
+    const auto flip = [&](std::size_t bit) { packet[bit / 8] ^= static_cast<std::uint8_t>(0x80U >> (bit % 8)); };
     const std::size_t bits = 8 * packet.size();
     if (m_manners.kind == Damage::Seen) {
-        if (chance(0.5)) {
+        // The CRC's low byte goes first: a burst across its begin is none in its own order, and may go unseen. A fast
+        // answer has such places all over.
+        constexpr std::size_t Burst = 16, Crc = 16;
+        if (packet[IdAt] == 0xFE || chance(0.5)) {
             for (std::size_t i = 1 + upTo(3); i > 0; --i)
                 flip(upTo(bits));
         } else {
-            const std::size_t begin = upTo(bits - 16);
-            for (std::size_t i = 0; i < 16; ++i) {
+            const std::size_t begin = upTo(bits - Crc - Burst + 1);
+            for (std::size_t i = 0; i < Burst; ++i) {
                 if (chance(0.5))
                     flip(begin + i);
             }
