@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
-#include "app/dxl/device.h"
 #include "app/dxl/directjob.h"
 #include "app/dxl/showvalue.h"
-#include "core/session/procedures/procedures.h"
+#include "app/dxl/target.h"
+#include "core/session/deviceplace.h"
 #include "core/table/units.h"
 
 #include <algorithm>
@@ -42,27 +42,21 @@ Result<Assignment> prepare(Device &device, const RegisterArgument &argument)
     return Assignment{argument, *field, *raw, bytesFromRaw(**field, *raw)};
 }
 
-DevicePlace placeOf(const Device &device)
-{
-    const Field *torque = device.table()->find(u"Torque Enable");
-    return {device.id(), device.bus().line().baudRate(), device.modelNumber(),
-            torque ? torque->address : std::uint16_t(0), device.name()};
-}
-
 /// After a change of ID or baud rate the device answers elsewhere: such writes are procedures, which look for it there.
 Result<void> move(Device &device, const Assignment &assignment)
 {
     DirectJob job(device.bus());
+    const DevicePlace place = placeOf(device.found(), *device.table(), device.name());
     Result<Found> found;
     if (normalizedName(assignment.field->name) == u"id") {
-        found = changeId(job, {placeOf(device), static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
+        found = changeId(job, {place, static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
     } else {
         const auto rate = device.table()->baudRate(static_cast<int>(assignment.raw));
         if (!rate) {
             return failure(ErrorKind::InvalidArgument,
                            QStringLiteral("%1 has no baud rate with the code %2").arg(device.name()).arg(assignment.raw));
         }
-        found = changeBaud(job, {placeOf(device), *rate, static_cast<std::uint8_t>(assignment.raw),
+        found = changeBaud(job, {place, *rate, static_cast<std::uint8_t>(assignment.raw),
                                  assignment.field->address, false});
     }
     return found ? device.follow(*found) : Result<void>(tl::unexpected(found.error()));
@@ -132,14 +126,12 @@ Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignme
 
 ExitCode writeCommand(const Work &work)
 {
-    const std::vector<RegisterArgument> &registers = work.options.registers;
-    if (registers.size() > 1)
-        work.output.expectMany();
-    Device device(work.bus, work.options.id);
-    if (const auto known = device.identify(work.catalog); !known)
-        return work.output.fail(withAdvice(known.error(), work.options));
+    std::optional<Device> known = target(work, false);
+    if (!known)
+        return ExitCode::Failed;
+    Device &device = *known;
     std::vector<Assignment> assignments;
-    for (const RegisterArgument &argument : registers) {
+    for (const RegisterArgument &argument : work.options.registers) {
         auto assignment = prepare(device, argument);
         if (!assignment)
             return work.output.refuse(assignment.error()); // nothing has been written
