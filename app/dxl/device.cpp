@@ -101,9 +101,14 @@ EffectiveField Device::limits(const Field &field)
     return effective(field, [&](QStringView name) { return lookUp(name); });
 }
 
-void Device::learn(const Field &field, std::int64_t raw)
+void Device::assume(const Field &field, std::int64_t raw)
 {
     m_known[normalizedName(field.name)] = raw;
+}
+
+void Device::learn(const Field &field, std::int64_t raw)
+{
+    assume(field, raw);
     if (normalizedName(field.name) == u"statusreturnlevel")
         setTraits(static_cast<std::uint8_t>(raw));
 }

@@ -37,7 +37,9 @@ public:
     /// Its unit and its limits now. Registers that can't be read limit nothing: the device itself will refuse.
     EffectiveField limits(const Field &field);
 
-    /// `field` has or will have this value, whatever was read before.
+    /// `field` will have this value when units and limits matter, whatever was read before.
+    void assume(const Field &field, std::int64_t raw);
+    /// `field` has this value, or it is being written: from now on the device answers by it.
     void learn(const Field &field, std::int64_t raw);
     /// Other registers may have changed with a write: forget what was read.
     void forget() { m_known.clear(); }
