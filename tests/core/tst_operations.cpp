@@ -280,6 +280,14 @@ private slots:
         QVERIFY(line.now() < 900ms);
     }
 
+    void scanTakesNoErrorForADevice()
+    {
+        FakeLine line;
+        line.answer(oracle::status(9, 0xFF, {6, 4, 38}));
+        Bus bus(line);
+        QCOMPARE(scanBaud(bus, 0, 252, {}).value().size(), std::size_t(0));
+    }
+
     void scanDoubtsWhoSharesAnId()
     {
         // Two voices under ID 1: the second comes behind the first, in the scan and when asked alone.
