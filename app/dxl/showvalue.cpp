@@ -73,10 +73,8 @@ void showSent(Output &output, const Device &device, const Field *field, const Re
             .add("sent", qint64(rawFromBytes(*field, bytes)));
     }
     document.addFlag("confirmed", false);
-    output.unconfirmed(QStringLiteral("%1: sent, but not confirmed: the Status Return Level 0 of %2 lets nothing be read "
-                                      "back")
-                           .arg(argument.text(), device.name()),
-                       document);
+    const QString reason = QStringLiteral("the Status Return Level 0 of %1 lets nothing be read back").arg(device.name());
+    output.unconfirmed(QStringLiteral("%1: sent, but not confirmed: %2").arg(argument.text(), reason), document);
 }
 
 ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error,

@@ -16,7 +16,8 @@ void showBytes(Output &output, const Device &device, const RegisterArgument &arg
 void showSent(Output &output, const Device &device, const Field *field, const RegisterArgument &argument,
               const Bytes &bytes);
 
-/// Prints the error, behind it `aftermath` (what has been done before it, if anything); in a JSON array a place for the register it belongs to.
+/// Prints the error, behind it `aftermath` (what was done before it, if anything); in a JSON array a place for the
+/// register it belongs to.
 ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error,
                      const QString &aftermath = {});
 /// The error of a device that can't be read for its Status Return Level, with the way out; every other as it is.

@@ -61,7 +61,8 @@ Result<void> move(Device &device, const Assignment &assignment)
         found = changeId(job, {place, static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
     } else {
         const int rate = device.table()->baudRate(static_cast<int>(assignment.raw)).value(); // moves() has looked
-        found = changeBaud(job, {place, rate, static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
+        const auto code = static_cast<std::uint8_t>(assignment.raw);
+        found = changeBaud(job, {place, rate, code, assignment.field->address, false});
     }
     return found ? device.follow(*found) : Result<void>(tl::unexpected(found.error()));
 }

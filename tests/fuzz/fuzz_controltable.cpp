@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any file as a control table, alone and as one that extends those of the program: it is refused with a sentence, or every
-// table it gives is fit for use.
+// Any file as a control table, alone and as one that extends those of the program: it is refused with a sentence, or
+// every table it gives is fit for use.
 #include "core/table/catalog.h"
 #include "core/table/jsonguard.h"
 #include "core/table/units.h"
@@ -24,8 +24,8 @@ void use(const ControlTable &table, const Field &field)
         const Bytes bytes = bytesFromRaw(field, raw);
         must(bytes.size() == field.size, "a value fills its register");
     }
-    must(rawFromBytes(field, bytesFromRaw(field, smallestRaw(field))) == smallestRaw(field), "bytes hold the smallest value");
-    must(rawFromBytes(field, bytesFromRaw(field, largestRaw(field))) == largestRaw(field), "bytes hold the largest value");
+    for (const std::int64_t raw : {smallestRaw(field), largestRaw(field)})
+        must(rawFromBytes(field, bytesFromRaw(field, raw)) == raw, "bytes hold every value");
 }
 
 void use(const ControlTable &table)

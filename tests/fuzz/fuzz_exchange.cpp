@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Operations of every kind against a line whose answers the input dictates: each ends within a bounded time, and no value
-// is returned as good unless a complete answer with it (CRC, ID, length, no error) came while the operation ran.
+// Operations of every kind against a line whose answers the input dictates: each ends within a bounded time, and no
+// value is returned as good unless a complete answer with it (CRC, ID, length, no error) came while the operation ran.
 #include "core/bus/operations.h"
 #include "tests/fuzz/hostileline.h"
 #include "tests/support/oracle.h"
@@ -86,8 +86,9 @@ std::vector<Span> spansFrom(fuzz::Input &input, bool same)
     const int count = 1 + input.byte() % 8;
     for (int i = 0; i < count; ++i) {
         const auto id = static_cast<std::uint8_t>(i * 7 % 253);
+        const auto own = static_cast<std::uint16_t>(address + i);
         spans.push_back(same ? Span{id, address, length}
-                             : Span{id, static_cast<std::uint16_t>(address + i), static_cast<std::uint16_t>(1 + input.byte() % 40)});
+                             : Span{id, own, static_cast<std::uint16_t>(1 + input.byte() % 40)});
     }
     return spans;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Anything typed: as the value of a register, as an argument of dxl, as a list of simulated servos. It is refused with a
-// sentence, or what it means is within bounds. Two bytes choose model and register, two the registers that decide on its
-// unit and range; the rest is the text.
+// Anything typed: as the value of a register, as an argument of dxl, as a list of simulated servos. It is refused with
+// a sentence, or what it means is within bounds. Two bytes choose model and register, one the registers that decide on
+// its unit and range; the rest is the text.
 #include "app/dxl/arguments.h"
 #include "core/protocol/protocol_values.h"
 #include "core/sim/simulatedbus.h"
@@ -67,12 +67,12 @@ void asArgument(const Catalog &catalog, const QString &text)
         }
     }
     if (const auto bauds = dxl::parseBauds(text, {57600}); accepted(bauds))
-        must(!bauds->empty() && std::ranges::all_of(*bauds, [](int baud) { return baud > 0; }), "baud rates are positive");
+        must(!bauds->empty() && std::ranges::min(*bauds) > 0, "baud rates are positive");
     if (const auto ids = dxl::parseIds(text); accepted(ids))
         must(ids->first >= 0 && ids->first <= ids->last && ids->last <= MaximumId, "IDs are those of devices");
     if (const auto specs = sim::parseServoSpecs(text, catalog); accepted(specs)) {
         for (const sim::ServoSpec &spec : *specs)
-            must(catalog.model(spec.model) && spec.id >= 0 && spec.id <= MaximumId, "simulated servos are possible ones");
+            must(catalog.model(spec.model) && spec.id >= 0 && spec.id <= MaximumId, "simulated servos can be");
     }
 }
 
@@ -85,7 +85,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     fuzz::Input input(data + std::min<std::size_t>(size, 2), size - std::min<std::size_t>(size, 2));
     const int decider = input.byte();
     const Bytes typed = input.rest();
-    const QString text = QString::fromUtf8(reinterpret_cast<const char *>(typed.data()), static_cast<qsizetype>(typed.size()));
+    const QString text =
+        QString::fromUtf8(reinterpret_cast<const char *>(typed.data()), static_cast<qsizetype>(typed.size()));
     asValue(catalog, chooser, text, decider);
     asArgument(catalog, text);
     return 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A hostile controller: any bytes and any well-formed instructions, at any rate and moment, to simulated servos. Nothing
-// hangs, a servo keeps an ID, and one servo left to finish its answers says only well-formed status packets.
+// A hostile controller: any bytes and any well-formed instructions, at any rate and moment, to simulated servos.
+// Nothing hangs, a servo keeps an ID, and one servo left to finish its answers says only well-formed status packets.
 #include "core/protocol/parser.h"
 #include "core/sim/packetassembler.h"
 #include "core/sim/servo.h"
@@ -15,7 +15,8 @@ using fuzz::must;
 namespace {
 
 constexpr int Rates[] = {57600, 1'000'000, 4'000'000, 9600};
-constexpr std::uint8_t Codes[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x10, 0x20, 0x82, 0x83, 0x8A, 0x92, 0x93, 0x9A, 0x55};
+constexpr std::uint8_t Codes[] = {0x01, 0x02, 0x03, 0x04, 0x05, 0x06, 0x08, 0x10,
+                                  0x20, 0x82, 0x83, 0x8A, 0x92, 0x93, 0x9A, 0x55};
 
 /// What the pty server does with bytes that come in pieces: none is lost, none is made.
 void assemble(const Bytes &bytes, std::size_t piece)
