@@ -147,7 +147,9 @@ bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at
 
 void Collector::takeAnyone(const Parser::Packet &status, LineTime at)
 {
-    if (status.parameters.size() != PingReplyLength || slotOf(status.id) || m_late.couldFakePing(status.id)) {
+    const bool isError = (status.errorField & ~AlertBit) != 0;
+    const bool isAnswer = !isError && status.parameters.size() == PingReplyLength && !m_late.couldFakePing(status.id);
+    if (!isAnswer || slotOf(status.id)) {
         stray(status, at); // a second answer under one ID: two devices share it
         return;
     }
@@ -170,7 +172,7 @@ void Collector::accept(Slot &slot, std::uint8_t errorField, ByteView data, LineT
     slot.reply.at = at;
     slot.reply.bytes = bytes;
     slot.reply.data.clear();
-    if (slot.reply.error == DeviceError::None || m_request->shape == ReplyShape::Anyone)
+    if (slot.reply.error == DeviceError::None)
         slot.reply.data.assign(data.begin(), data.end());
     ++m_answers;
 }
