@@ -36,13 +36,13 @@ Place placeOf(PacketPart part, PacketForm form, std::size_t size)
 
 } // namespace
 
-void damagePacket(Bytes &packet, PacketForm form, const Damage &damage, Chance &chance)
+bool damagePacket(Bytes &packet, PacketForm form, const Damage &damage, Chance &chance)
 {
-    Place place = placeOf(damage.part, form, packet.size());
-    if (place.size == 0)
-        place = {0, packet.size()};
+    const Place place = placeOf(damage.part, form, packet.size());
     const std::size_t count = place.size * 8;
     std::set<std::size_t> turned; // bits of the part
+    if (count == 0)
+        return false;
     if (damage.burst > 0) {
         const std::size_t width = std::min(static_cast<std::size_t>(damage.burst), count);
         const std::size_t last = count - width;
@@ -61,6 +61,7 @@ void damagePacket(Bytes &packet, PacketForm form, const Damage &damage, Chance &
     }
     for (const std::size_t bit : turned)
         packet[place.begin + bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8));
+    return !turned.empty();
 }
 
 } // namespace dynascope::sim

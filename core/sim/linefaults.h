@@ -11,7 +11,8 @@
 namespace dynascope::sim {
 
 /// Where in a packet damage falls. In a fast reply each device has its own Error, Id, Data and Crc; Header, Length and
-/// Instruction stand in the first device's piece alone, its Header with the FE behind it. A part that isn't there: Any.
+/// Instruction stand in the first device's piece alone, its Header with the FE behind it. A part that isn't there can't
+/// be damaged.
 enum class PacketPart { Any, Header, Id, Length, Instruction, Error, Data, Crc };
 
 struct Damage {

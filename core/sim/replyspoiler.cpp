@@ -127,8 +127,7 @@ void ReplySpoiler::apply(const ReplyFault &fault, Spoiling &reply)
             reply.sent.damaged || form != PacketForm::Status; // the next doesn't find the place of its block
         break;
     case Kind::Damaged:
-        damagePacket(reply.heard, form, fault.damage, m_chance);
-        if (!fault.atAdapter) {
+        if (damagePacket(reply.heard, form, fault.damage, m_chance) && !fault.atAdapter) {
             reply.sent.bytes = reply.heard;
             reply.sent.damaged = true;
         }

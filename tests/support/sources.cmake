@@ -3,6 +3,7 @@ target_sources(dynascope_test_support PRIVATE
     support/fakefactory.cpp support/fakefactory.h
     support/fakeline.cpp support/fakeline.h
     support/fakeservos.cpp support/fakeservos.h
+    support/faultmatrix.cpp support/faultmatrix.h support/faultrequests.cpp
     support/hex.cpp support/hex.h
     support/oracle.cpp support/oracle.h
     support/sessionfixture.h
