@@ -9,8 +9,8 @@
 
 namespace dynascope::sim {
 
-/// The adapter between wire and program: hands on what the wire brings, in its order, when its timer, its delays and its
-/// plug let it; picks up noise. Healthy, it does nothing.
+/// The adapter between wire and program: hands on what the wire brings, in its order, when its timer, its delays and
+/// its plug let it; picks up noise. Healthy, it does nothing.
 class Adapter
 {
 public:

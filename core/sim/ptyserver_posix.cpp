@@ -117,7 +117,7 @@ void PtyServer::Worker::run()
     }
 }
 
-/// The terminal is the adapter: pulled out, its clients see it end and the link is gone; plugged in, there is a new one.
+/// The terminal is the adapter: pulled out, its clients see it end and the link goes; plugged in, there is a new one.
 void PtyServer::Worker::followPlug()
 {
     if (m_bus->isUnplugged()) {

@@ -105,8 +105,8 @@ std::vector<Case> lateAnswers()
 {
     const char *stuck = "= NothingReceived NothingReceived";
     return {
-        // Within the 50 ms that a write may take and the 1.5 ms that a fast packet may pause; past the 0.1 ms of a read:
-        // quiet is waited for, then asked again.
+        // Within the 50 ms that a write may take and the 1.5 ms that a fast packet may pause; past the 0.1 ms of a
+        // read: quiet is waited for, then asked again.
         {.name = QStringLiteral("late by 1 ms, before the next request"),
          .faults = late(1ms),
          .cells = {{"Ping, Read", 1, "="},
