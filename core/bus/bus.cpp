@@ -270,8 +270,8 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
             continue;
         waiting.lastByte = m_channel.now();
         m_collector.feed(*received, waiting.lastByte);
-        if (const auto packetAt = m_collector.lastPacketAt())
-            waiting.origin = std::max(waiting.origin, *packetAt);
+        if (const auto turnAt = m_collector.turnAt())
+            waiting.origin = std::max(waiting.origin, *turnAt);
     }
     return {};
 }
@@ -306,11 +306,12 @@ LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
     if (request.shape == ReplyShape::Anyone) {
         // Behind the answer of one ID come the slots of those above it. The last of them may hold an answer.
         const LineTime answer = Traits().returnDelay + times(timing::largestStatus(3), m_channel.line().byteTime());
-        const auto heard = static_cast<int>(m_collector.answers());
+        const auto heard = static_cast<LineTime::rep>(m_collector.answers());
         const LineTime all = waiting.sent + (waiting.highestId + 1 - heard) * timing::SlotOfBroadcastPing;
         const LineTime rest =
             waiting.origin + (waiting.highestId - m_collector.lastId()) * timing::SlotOfBroadcastPing;
-        return std::max(all, rest) + allowance(request) + processing + answer;
+        const LineTime longest = all + heard * (timing::SlotOfBroadcastPing + answer);
+        return std::clamp(rest, all, longest) + allowance(request) + processing + answer;
     }
     const std::uint8_t next = request.replies[m_collector.position()].id;
     const LineTime firstByte = 2 * m_channel.line().byteTime();

@@ -31,6 +31,7 @@ void Collector::begin(const Request &request, ByteView sent, Found found)
     m_seen.reset();
     m_cutOff.reset();
     m_lastPacketAt.reset();
+    m_turnAt.reset();
     m_belated.clear();
     m_answers = 0;
     m_echoExpected = false;
@@ -95,11 +96,21 @@ void Collector::takeFast(const Parser::Packet &packet, LineTime at)
         return;
     }
     salvageBlocks(packet.raw, at);
-    const auto end = m_slots.begin() + static_cast<std::ptrdiff_t>(m_slotCount);
-    const auto open = std::find_if(m_slots.begin(), end, [](const Slot &slot) { return slot.state == Slot::State::Open; });
-    if (open != end) { // a good packet, but not of the shape that was asked for
-        open->state = Slot::State::WrongLength;
-        open->length = packet.parameters.size();
+    // A good packet; but what of it is not of the shape that was asked for?
+    std::size_t block = HeaderSize + 1;
+    for (std::size_t i = 0; i < m_slotCount; ++i) {
+        Slot &slot = m_slots[i];
+        if (slot.state == Slot::State::Open) {
+            if (block + 1 < packet.raw.size() && packet.raw[block + 1] != slot.expected.id) {
+                ++m_seen.strayPackets;
+                m_seen.strayIds.push_back(packet.raw[block + 1]);
+            } else {
+                slot.length = packet.parameters.size();
+                slot.state = Slot::State::WrongLength;
+            }
+            break;
+        }
+        block += slot.expected.length + std::size_t(FastBlockOverhead);
     }
     m_lastPacketAt = at;
 }
@@ -113,14 +124,37 @@ void Collector::takeStatus(const Parser::Packet &status, LineTime at)
     }
     if (isDoubtful(*slot, status, at))
         return;
-    m_lastPacketAt = at;
     const bool isError = (status.errorField & ~AlertBit) != 0;
     if (!isError && status.parameters.size() != slot->expected.length) {
-        slot->state = Slot::State::WrongLength; // the right one may follow
-        slot->length = status.parameters.size();
+        slot->length = status.parameters.size(); // the right one may follow
+        pass(*slot, Slot::State::WrongLength, at);
         return;
     }
+    doubtLaterOnes(*slot);
     accept(*slot, status.errorField, status.parameters, at, status.raw.size());
+    pass(*slot, Slot::State::Answered, at);
+}
+
+/// Devices answer in the order of the request: what came from a later one before this was no answer to it.
+void Collector::doubtLaterOnes(const Slot &slot)
+{
+    for (std::size_t i = m_slotCount; i > 0 && &m_slots[i - 1] != &slot; --i) {
+        if (!m_slots[i - 1].answered())
+            continue;
+        m_slots[i - 1].state = Slot::State::Doubtful;
+        --m_answers;
+        ++m_seen.strayPackets;
+        m_seen.strayIds.push_back(m_slots[i - 1].expected.id);
+    }
+}
+
+void Collector::pass(Slot &slot, Slot::State state, LineTime at)
+{
+    slot.state = state;
+    m_lastPacketAt = at;
+    const bool isLast = &slot == &m_slots[m_slotCount - 1];
+    if (m_request->shape == ReplyShape::Anyone || (m_request->shape == ReplyShape::InOrder && !isLast))
+        m_turnAt = at;
 }
 
 /// Is it an answer that may be an earlier request's? Then the right one may follow. An answer to an earlier Ping says
@@ -153,19 +187,18 @@ void Collector::takeAnyone(const Parser::Packet &status, LineTime at)
         stray(status, at); // a second answer under one ID: two devices share it
         return;
     }
-    m_lastPacketAt = at;
     if (m_slots.size() == m_slotCount)
         m_slots.emplace_back();
     Slot &slot = m_slots[m_slotCount++];
     slot.expected = {status.id, PingReplyLength};
     accept(slot, status.errorField, status.parameters, at, status.raw.size());
+    pass(slot, Slot::State::Answered, at);
     if (m_found)
         m_found(slot.reply);
 }
 
 void Collector::accept(Slot &slot, std::uint8_t errorField, ByteView data, LineTime at, std::size_t bytes)
 {
-    slot.state = Slot::State::Answered;
     slot.reply.id = slot.expected.id;
     slot.reply.error = static_cast<DeviceError>(errorField & ~AlertBit);
     slot.reply.alert = (errorField & AlertBit) != 0;
@@ -191,8 +224,7 @@ void Collector::takeDamaged(ByteView raw, LineTime at)
         slot = &m_slots[position()];
     if (slot->answered())
         return;
-    slot->state = Slot::State::Damaged;
-    m_lastPacketAt = at;
+    pass(*slot, Slot::State::Damaged, at);
 }
 
 /// A fast reply, whole or not: block i counts when it carries the i-th ID and its CRC, which covers all bytes up to
@@ -223,7 +255,7 @@ void Collector::salvageBlocks(ByteView raw, LineTime at)
         }
         m_late.clear();
         accept(slot, raw[dataAt - 2], raw.subspan(dataAt, slot.expected.length), at, begin - dataAt + 2);
-        m_lastPacketAt = at;
+        pass(slot, Slot::State::Answered, at);
     }
 }
 
@@ -253,8 +285,13 @@ bool Collector::isComplete() const
     switch (m_request->shape) {
     case ReplyShape::None: return !m_echoExpected || m_seen.echo;
     case ReplyShape::Anyone: return false; // nobody knows how many there are
-    case ReplyShape::Single:
-    case ReplyShape::InOrder: return m_slotCount == 0 || m_slots[m_slotCount - 1].answered(); // behind it nobody answers
+    case ReplyShape::Single: return m_slotCount == 0 || m_slots.front().answered();
+    case ReplyShape::InOrder: // behind the last one nobody answers; but one that is still missing may make it doubtful
+        for (std::size_t i = 0; i < m_slotCount; ++i) {
+            if (!m_slots[i].passed())
+                return false;
+        }
+        return m_slotCount == 0 || m_slots[m_slotCount - 1].answered();
     case ReplyShape::Fast: return m_answers == m_slotCount;
     }
     return true;
@@ -279,18 +316,22 @@ std::size_t Collector::position() const
 
 int Collector::brokenAt() const
 {
-    // Behind the last device that was heard nobody was: the first of them broke the chain.
     std::size_t open = 0;
+    if (m_request->shape == ReplyShape::Fast) { // one packet: the first block that is missing
+        while (open < m_slotCount && m_slots[open].answered())
+            ++open;
+        return open < m_slotCount ? static_cast<int>(open) : -1;
+    }
+    // Behind the last device that was heard nobody was: the first of them broke the chain, unless the one before it was
+    // heard so badly that the others may not have heard it either.
     for (std::size_t i = 0; i < m_slotCount; ++i) {
         if (m_slots[i].passed())
             open = i + 1;
     }
-    if (m_request->shape == ReplyShape::Fast) { // one packet: the first block that is missing
-        open = 0;
-        while (open < m_slotCount && m_slots[open].answered())
-            ++open;
-    }
-    return open < m_slotCount ? static_cast<int>(open) : -1;
+    if (open == m_slotCount)
+        return -1;
+    const bool damaged = open > 0 && !m_slots[open - 1].answered();
+    return static_cast<int>(damaged ? open - 1 : open);
 }
 
 void Collector::finish(ExchangeResult &result, LineTime waited)

@@ -41,6 +41,8 @@ public:
     std::size_t position() const;
     /// When the last packet of an expected device had ended, damaged ones included; nothing before the first.
     std::optional<LineTime> lastPacketAt() const { return m_lastPacketAt; }
+    /// When the last packet had ended behind which another device's turn began; nothing before the first.
+    std::optional<LineTime> turnAt() const { return m_turnAt; }
     /// An answer to an earlier request that came now, and how long after it could have been awaited.
     struct Belated {
         std::uint8_t id = 0;
@@ -73,6 +75,8 @@ private:
     void takeFast(const Parser::Packet &packet, LineTime at);
     void takeDamaged(ByteView raw, LineTime at);
     void salvageBlocks(ByteView raw, LineTime at);
+    void pass(Slot &slot, Slot::State state, LineTime at);
+    void doubtLaterOnes(const Slot &slot);
     bool isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at);
     void accept(Slot &slot, std::uint8_t errorField, ByteView data, LineTime at, std::size_t bytes);
     void stray(const Parser::Packet &packet, LineTime at);
@@ -90,7 +94,7 @@ private:
     std::size_t m_slotCount = 0; ///< of m_slots, whose memory is kept, so many count
     Observations m_seen;
     std::optional<Parser::Pending> m_cutOff;
-    std::optional<LineTime> m_lastPacketAt;
+    std::optional<LineTime> m_lastPacketAt, m_turnAt;
     std::vector<Belated> m_belated;
     std::size_t m_answers = 0;
     bool m_echoExpected = false;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/groupreply.h"
 
+#include "core/protocol/crc16.h"
+
 namespace dynascope::sim {
 namespace {
 
@@ -9,24 +11,27 @@ constexpr std::size_t FastPrefix = HeaderSize + 1;            ///< FF FF FD 00 F
 
 } // namespace
 
-Bytes chainBytes(Chain &chain, const Chain::Member &member)
+Bytes chainBytes(Chain &chain, std::size_t index, const StatusPacket &status)
 {
     if (!chain.group.fast)
-        return encode(member.status);
+        return encode(status);
     if (chain.blocks.empty()) {
         for (const Span &span : chain.group.spans)
             chain.blocks.push_back({span.id, DeviceError::None, false, Bytes(span.length, 0)});
     }
-    chain.blocks[member.index] = member.status;
-    // What stands behind a block has no part in it: encode the whole packet, cut this device's piece out.
-    const Bytes whole = encodeFastStatus(chain.blocks);
+    // What stands behind a block has no part in it: encode the whole packet, go on from what stands before.
+    Bytes packet = encodeFastStatus(chain.blocks);
     std::size_t begin = FastPrefix;
-    for (std::size_t i = 0; i < member.index; ++i)
+    for (std::size_t i = 0; i < index; ++i)
         begin += FastBlockOverhead + chain.group.spans[i].length;
-    const std::size_t end = begin + FastBlockOverhead + chain.group.spans[member.index].length;
-    if (member.index == 0)
-        begin = 0;
-    return Bytes(whole.begin() + static_cast<std::ptrdiff_t>(begin), whole.begin() + static_cast<std::ptrdiff_t>(end));
+    packet.resize(begin);
+    packet.push_back(status.errorField());
+    packet.push_back(status.id);
+    packet.insert(packet.end(), status.parameters.begin(), status.parameters.end());
+    appendLittleEndian(packet, crc16(packet), 2);
+    if (status.parameters.size() == chain.group.spans[index].length)
+        chain.blocks[index] = status;
+    return index == 0 ? packet : Bytes(packet.begin() + static_cast<std::ptrdiff_t>(begin), packet.end());
 }
 
 std::vector<LineTime> pingTimes(LineTime heardAt, std::span<const PingSlot> pings)

@@ -21,8 +21,9 @@ struct Chain {
     std::vector<StatusPacket> blocks; ///< of a fast read: all listed, blank until their turn
 };
 
-/// The bytes that `member` adds: a status packet, or its part of the fast packet.
-Bytes chainBytes(Chain &chain, const Chain::Member &member);
+/// The bytes that the device at `index` adds: a status packet, or its part of the fast packet. Data of another length
+/// than was asked for stands as it is: what was to follow can't.
+Bytes chainBytes(Chain &chain, std::size_t index, const StatusPacket &status);
 
 /// When each of the devices that heard a broadcast Ping speaks: in the order of IDs, an empty slot for every absent
 /// lower ID. `pings` by ID. Times are of the first bit.

@@ -21,7 +21,9 @@ public:
                                                     std::function<void(SimulatedBus &, LineTime)> onTick = {});
     ~PtyServer();
 
-    QString path() const; ///< of the terminal a client opens: "/dev/pts/7"
+    /// Of the terminal a client opens: "/dev/pts/7". Unplugged by the bus's faults, it is gone; plugged in again, it
+    /// may have another name, and only `link` leads there.
+    QString path() const;
 
     /// Runs `change` on the server's thread, between packets.
     void post(std::function<void(SimulatedBus &, LineTime now)> change);

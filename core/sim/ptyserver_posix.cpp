@@ -38,11 +38,13 @@ using Change = std::function<void(SimulatedBus &, LineTime)>;
 class PtyServer::Worker
 {
 public:
-    Worker(std::unique_ptr<SimulatedBus> bus, std::unique_ptr<PseudoTerminal> terminal, Change onTick, int wake)
+    Worker(std::unique_ptr<SimulatedBus> bus, std::unique_ptr<PseudoTerminal> terminal, QString link,
+           Change onTick, int wake)
         : m_bus(std::move(bus))
         , m_terminal(std::move(terminal))
         , m_onTick(std::move(onTick))
         , m_path(m_terminal->path())
+        , m_link(std::move(link))
         , m_wake(wake)
         , m_thread([this] { run(); })
     {
@@ -77,6 +79,7 @@ private:
 
     void run();
     void runPosted();
+    void followPlug();
     void hearClient(LineTime now);
     void answerClient(LineTime now);
     void tick(LineTime now);
@@ -84,11 +87,11 @@ private:
     LineTime coarseWake() const;
 
     std::unique_ptr<SimulatedBus> m_bus;
-    std::unique_ptr<PseudoTerminal> m_terminal;
+    std::unique_ptr<PseudoTerminal> m_terminal; ///< null while the bus's adapter is unplugged
     PacketAssembler m_assembler;
     Change m_onTick;
     LineTime m_nextTick{};
-    const QString m_path;
+    const QString m_path, m_link;
     const int m_wake; ///< an eventfd
     std::atomic<bool> m_stop = false;
     std::mutex m_queueMutex;
@@ -101,7 +104,7 @@ void PtyServer::Worker::run()
     m_bus->beginAt(wallTime());
     m_nextTick = wallTime();
     while (!m_stop.load(std::memory_order_acquire)) {
-        if (m_terminal->watchDescriptor() >= 0 && m_terminal->noticeClients()) {
+        if (m_terminal && m_terminal->watchDescriptor() >= 0 && m_terminal->noticeClients()) {
             hearClient(wallTime()); // its last words count
             m_bus->discardArrived(wallTime());
         }
@@ -109,7 +112,20 @@ void PtyServer::Worker::run()
         answerClient(wallTime());
         runPosted();
         tick(wallTime());
+        followPlug();
         wait();
+    }
+}
+
+/// The terminal is the adapter: pulled out, its clients see it end and the link goes; plugged in, there is a new one.
+void PtyServer::Worker::followPlug()
+{
+    if (m_bus->isUnplugged()) {
+        m_terminal.reset();
+        m_assembler.clear();
+    } else if (!m_terminal) {
+        if (auto opened = PseudoTerminal::open(m_link))
+            m_terminal = std::move(*opened);
     }
 }
 
@@ -129,6 +145,8 @@ void PtyServer::Worker::runPosted()
 
 void PtyServer::Worker::hearClient(LineTime now)
 {
+    if (!m_terminal)
+        return;
     const Bytes bytes = m_terminal->read();
     if (!bytes.empty())
         m_assembler.feed(bytes, now);
@@ -139,6 +157,8 @@ void PtyServer::Worker::hearClient(LineTime now)
 void PtyServer::Worker::answerClient(LineTime now)
 {
     Bytes reply;
+    if (!m_terminal)
+        return m_bus->discardArrived(now);
     m_bus->receive(reply, now, m_terminal->baudRate());
     if (!reply.empty() && m_terminal->hasClient())
         m_terminal->write(reply);
@@ -173,8 +193,9 @@ void PtyServer::Worker::wait()
     const LineTime sleep = (quiet ? exact - SpinTime : coarseWake()) - now;
     if (sleep > 0ns) {
         const timespec length{static_cast<time_t>(sleep / 1s), static_cast<long>((sleep % 1s).count())};
-        std::array<pollfd, 3> waited{pollfd{m_terminal->descriptor(), POLLIN, 0}, pollfd{m_wake, POLLIN, 0},
-                                     pollfd{m_terminal->watchDescriptor(), POLLIN, 0}};
+        std::array<pollfd, 3> waited{pollfd{m_terminal ? m_terminal->descriptor() : -1, POLLIN, 0},
+                                     pollfd{m_wake, POLLIN, 0},
+                                     pollfd{m_terminal ? m_terminal->watchDescriptor() : -1, POLLIN, 0}};
         if (ppoll(waited.data(), waited.size(), &length, nullptr) > 0) {
             std::uint64_t count = 0;
             if ((waited[1].revents & POLLIN) && ::read(m_wake, &count, sizeof count) < 0 && errno != EINTR)
@@ -198,7 +219,7 @@ Result<std::unique_ptr<PtyServer>> PtyServer::start(std::unique_ptr<SimulatedBus
     if (wake < 0)
         return failure(ErrorKind::PortUnsuitable, QStringLiteral("The simulator needs more open files than allowed"));
     std::unique_ptr<PtyServer> server(new PtyServer);
-    server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), std::move(onTick), wake);
+    server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), link, std::move(onTick), wake);
     return server;
 }
 

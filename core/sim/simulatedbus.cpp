@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedbus.h"
 
+#include "core/sim/adapter.h"
 #include "core/sim/baudmismatch.h"
 #include "core/sim/groupreply.h"
 #include "core/sim/motor.h"
+#include "core/sim/replyspoiler.h"
 #include "core/sim/wire.h"
 
 #include <algorithm>
@@ -13,8 +15,9 @@ namespace dynascope::sim {
 /// A reply that waits for its time.
 struct SimulatedBus::Scheduled {
     LineTime at{};
-    const Servo *servo = nullptr;
+    Servo *servo = nullptr;
     int baudRate = 57600;
+    StatusPacket status;
     Bytes bytes;
     bool givesUp = false; ///< dropped when its sender hears another instruction first
     std::shared_ptr<Chain> chain;
@@ -39,6 +42,8 @@ SimulatedBus::SimulatedBus(const Catalog &catalog, std::uint64_t seed)
     : m_catalog(catalog)
     , m_seed(seed)
     , m_wire(std::make_unique<Wire>(seed))
+    , m_spoiler(std::make_unique<ReplySpoiler>())
+    , m_adapter(std::make_unique<Adapter>())
 {
 }
 
@@ -93,19 +98,49 @@ void SimulatedBus::send(ByteView bytes, LineTime begin, int baudRate)
     sent.baudRate = baudRate;
     sent.bytes.assign(bytes.begin(), bytes.end());
     m_controllerFree = sent.end();
-    m_wire->begin(std::move(sent));
+    m_listening = baudRate;
+    m_adapter->send(sent);
+    if (!sent.bytes.empty())
+        m_wire->begin(std::move(sent));
 }
 
 void SimulatedBus::receive(Bytes &to, LineTime now, int baudRate)
 {
+    m_listening = baudRate;
     runTo(now);
-    m_wire->hear(to, now, baudRate);
+    bringToAdapter(now);
+    m_adapter->deliver(to, now);
+}
+
+void SimulatedBus::bringToAdapter(LineTime now)
+{
+    m_heard.clear();
+    m_wire->hear(m_heard, now, m_listening);
+    m_adapter->take(m_heard);
 }
 
 void SimulatedBus::discardArrived(LineTime now)
 {
-    runTo(now);
-    m_wire->discard(now);
+    Bytes forgotten;
+    receive(forgotten, now, m_listening);
+}
+
+void SimulatedBus::setFaults(LineFaults faults)
+{
+    m_spoiler->setFaults(faults);
+    m_adapter->setFaults(faults, m_now);
+    m_wire->setEcho(faults.echo.on);
+    m_faults = std::move(faults);
+}
+
+bool SimulatedBus::isUnplugged() const
+{
+    return m_adapter->isUnplugged();
+}
+
+bool SimulatedBus::isAmong(const std::vector<int> &ids, const Servo &servo) const
+{
+    return !ids.empty() && std::ranges::find(ids, servo.id()) != ids.end();
 }
 
 void SimulatedBus::advanceTo(LineTime now)
@@ -123,12 +158,17 @@ std::optional<LineTime> SimulatedBus::nextArrival() const
         consider(*end);
     for (const Scheduled &reply : m_scheduled)
         consider(reply.at);
+    for (const auto &event : {m_adapter->next(), m_adapter->nextNoise()}) {
+        if (event)
+            consider(*event);
+    }
     return next;
 }
 
 std::optional<LineTime> SimulatedBus::quietAt() const
 {
-    return m_wire->quiet();
+    const auto wire = m_wire->quiet(), adapter = m_adapter->quiet();
+    return wire && adapter ? std::max(*wire, *adapter) : wire ? wire : adapter;
 }
 
 void SimulatedBus::runTo(LineTime now)
@@ -138,7 +178,11 @@ void SimulatedBus::runTo(LineTime now)
         const auto reply = std::ranges::min_element(m_scheduled, {}, &Scheduled::at);
         const bool haveReply = reply != m_scheduled.end();
         const bool endFirst = end && (!haveReply || *end <= reply->at);
-        if (endFirst && *end <= now) {
+        const auto noise = m_adapter->nextNoise();
+        if (noise && *noise <= now && (!end || *noise < *end) && (!haveReply || *noise < reply->at)) {
+            bringToAdapter(*noise);
+            m_adapter->makeNoise(m_wire->busyUntil(*noise));
+        } else if (endFirst && *end <= now) {
             const Transmission sent = m_wire->takeEnded();
             if (m_logging)
                 m_log.push_back({sent.begin, sent.end(), sent.baudRate, sent.sender == nullptr, sent.bytes});
@@ -158,6 +202,8 @@ void SimulatedBus::hearController(const Transmission &sent)
 {
     std::vector<std::pair<Servo *, Reaction>> all;
     for (const auto &servo : m_servos) {
+        if (isAmong(m_faults.deaf, *servo))
+            continue;
         const bool same = understandEachOther(sent.baudRate, servo->baudRate());
         const Bytes heard = same ? sent.bytes : heardAtOtherBaud(sent.bytes, sent.baudRate, servo->baudRate());
         const auto count = static_cast<LineTime::rep>(std::max<std::size_t>(heard.size(), 1));
@@ -191,7 +237,8 @@ void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
             reply.servo = servo;
             reply.baudRate = reaction.baudRate;
             reply.bytes = encode(reaction.status);
-            schedule(std::move(reply));
+            reply.status = std::move(reaction.status);
+            m_scheduled.push_back(std::move(reply));
             break;
         }
         case Reaction::Turn::Slot: pings.emplace_back(servo, std::move(reaction)); break;
@@ -219,8 +266,9 @@ void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
         reply.servo = pings[i].first;
         reply.baudRate = pings[i].second.baudRate;
         reply.bytes = encode(pings[i].second.status);
+        reply.status = std::move(pings[i].second.status);
         reply.givesUp = true;
-        schedule(std::move(reply));
+        m_scheduled.push_back(std::move(reply));
     }
 }
 
@@ -248,11 +296,12 @@ void SimulatedBus::continueChain(const std::shared_ptr<Chain> &chain, std::size_
         reply.at = from + member.delay;
         reply.servo = member.servo;
         reply.baudRate = member.baudRate;
-        reply.bytes = chainBytes(*chain, member);
+        reply.bytes = chainBytes(*chain, index, member.status);
+        reply.status = member.status;
         reply.givesUp = true;
         reply.chain = chain;
         reply.index = index;
-        schedule(std::move(reply));
+        m_scheduled.push_back(std::move(reply));
     }
     std::erase_if(chain->waiting, [index](const Chain::Member &member) { return member.index == index; });
     std::erase_if(m_chains, [](const auto &one) { return one->waiting.empty(); });
@@ -264,21 +313,10 @@ void SimulatedBus::hearServo(const Transmission &sent)
         continueChain(sent.chain, sent.index + 1, sent.end());
 }
 
-void SimulatedBus::schedule(Scheduled reply)
-{
-    if (m_faults.delay > 0) {
-        --m_faults.delay;
-        reply.at += m_faults.lateness;
-    }
-    m_scheduled.push_back(std::move(reply));
-}
-
 void SimulatedBus::begin(Scheduled &reply)
 {
-    if (m_faults.drop > 0) {
-        --m_faults.drop;
+    if (isAmong(m_faults.silent, *reply.servo) || isAmong(m_faults.deaf, *reply.servo))
         return;
-    }
     Transmission sent;
     sent.begin = reply.at;
     sent.baudRate = reply.baudRate;
@@ -286,12 +324,13 @@ void SimulatedBus::begin(Scheduled &reply)
     sent.bytes = std::move(reply.bytes);
     sent.chain = std::move(reply.chain);
     sent.index = reply.index;
-    if (m_faults.corrupt > 0) {
-        --m_faults.corrupt;
-        sent.bytes[sent.bytes.size() - 3] ^= 0x10U; // the last byte before the CRC
-        sent.damaged = true;
+    ReplySpoiler::Spoiled spoiled = m_spoiler->spoil(std::move(sent), reply.status);
+    for (Transmission &one : spoiled.sent)
+        m_wire->begin(std::move(one));
+    if (spoiled.reboots) {
+        reply.servo->advanceTo(reply.at);
+        reply.servo->powerCycle();
     }
-    m_wire->begin(std::move(sent));
 }
 
 } // namespace dynascope::sim

@@ -3,6 +3,7 @@
 
 #include "core/bus/line.h"
 #include "core/result.h"
+#include "core/sim/linefaults.h"
 #include "core/table/catalog.h"
 
 #include <memory>
@@ -10,8 +11,11 @@
 
 namespace dynascope::sim {
 
+class Adapter;
+class ReplySpoiler;
 class Servo;
 class Wire;
+struct HeardByte;
 struct Reaction;
 struct Transmission;
 struct Chain;
@@ -35,14 +39,6 @@ struct WireEntry {
     int baudRate = 57600;
     bool fromController = false;
     Bytes bytes;
-};
-
-/// What goes wrong with the next replies, whoever sends them.
-struct ReplyFaults {
-    int drop = 0;    ///< so many are never sent
-    int corrupt = 0; ///< so many have a bit turned, so that their CRC is wrong
-    int delay = 0;   ///< so many come `lateness` later
-    LineTime lateness{};
 };
 
 /// Virtual servos on one virtual half-duplex wire. They hear the controller and each other (the chain rule needs that);
@@ -77,7 +73,10 @@ public:
     void advanceTo(LineTime now);
     LineTime now() const { return m_now; } ///< the latest of all calls
 
-    ReplyFaults &faults() { return m_faults; }
+    /// From now on, in place of those before; counts begin anew. What is under way stays as it is.
+    void setFaults(LineFaults faults);
+    const LineFaults &faults() const { return m_faults; }
+    bool isUnplugged() const; ///< the adapter, as of the last call
 
     void setLogging(bool on);
     const std::vector<WireEntry> &log() const { return m_log; }
@@ -86,13 +85,14 @@ public:
 private:
     struct Scheduled;
     void runTo(LineTime now);
+    void bringToAdapter(LineTime now);
+    bool isAmong(const std::vector<int> &ids, const Servo &servo) const;
     void hearController(const Transmission &sent);
     void hearServo(const Transmission &sent);
     void plan(std::vector<std::pair<Servo *, Reaction>> reactions);
     void planPings(std::vector<std::pair<Servo *, Reaction>> pings);
     void joinChain(Servo *servo, Reaction reaction);
     void continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from);
-    void schedule(Scheduled reply);
     void begin(Scheduled &reply);
     void interrupt(const Servo *servo);
 
@@ -103,7 +103,11 @@ private:
     std::vector<Scheduled> m_scheduled;
     std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet
     LineTime m_now{}, m_controllerFree{};
-    ReplyFaults m_faults;
+    LineFaults m_faults;
+    std::unique_ptr<ReplySpoiler> m_spoiler;
+    std::unique_ptr<Adapter> m_adapter;
+    int m_listening = 57600; ///< the controller's rate
+    std::vector<HeardByte> m_heard; ///< on its way from the wire to the adapter
     std::vector<WireEntry> m_log;
     bool m_logging = false;
 };

@@ -24,8 +24,7 @@ public:
 
     void advance(LineTime duration) { m_now += duration; } ///< lets virtual time pass
     void setHostAllowance(LineTime allowance) { m_hostAllowance = allowance; }
-    void setEcho(bool echo) { m_echo = echo; }   ///< the adapter returns what was sent
-    void unplug() { m_unplugged = true; }
+    void unplug() { m_unplugged = true; } ///< this line for good; the bus's faults can also plug it in again
     void refuseBaudRate(int bitsPerSecond) { m_refusedBaud = bitsPerSecond; } ///< as an adapter that can't do it
 
 private:
@@ -34,10 +33,9 @@ private:
     int m_baudRate;
     int m_refusedBaud = 0;
     LineTime m_hostAllowance{};
-    bool m_echo = false;
     bool m_unplugged = false;
-    Bytes m_echoed;
-    LineTime m_echoAt{}; ///< when the last of them has left
+    bool isUnplugged() const { return m_unplugged || m_bus.isUnplugged(); }
+
 };
 
 } // namespace dynascope::sim

@@ -6,11 +6,16 @@ target_sources(dynascope_core PRIVATE
     sim/profile.cpp sim/profile.h
 )
 target_sources(dynascope_core PRIVATE
+    sim/adapter.cpp sim/adapter.h
     sim/baudmismatch.cpp sim/baudmismatch.h
+    sim/chance.h
+    sim/damage.cpp sim/damage.h
     sim/demoscript.cpp sim/demoscript.h
     sim/groupreply.cpp sim/groupreply.h
+    sim/linefaults.h
     sim/motionregisters.cpp sim/motionregisters.h
     sim/registerfile.cpp sim/registerfile.h
+    sim/replyspoiler.cpp sim/replyspoiler.h
     sim/servo.cpp sim/servo.h sim/servocommands.cpp sim/servosettings.h sim/servowrites.cpp
     sim/servospecs.cpp
     sim/simulatedbus.cpp sim/simulatedbus.h

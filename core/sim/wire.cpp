@@ -41,7 +41,7 @@ void Wire::collide(OnWire &first, OnWire &second)
         scramble(first, from, to);
         scramble(second, from, to);
         // The controller hears one stream: the earlier one stands for both.
-        for (std::size_t i = 0; first.what.sender && i < second.absorbed.size(); ++i) {
+        for (std::size_t i = 0; isHeard(first) && i < second.absorbed.size(); ++i) {
             if (arrival(second.what, i) <= to + second.what.byteTime() / 2)
                 second.absorbed[i] = true;
         }
@@ -63,8 +63,12 @@ void Wire::scramble(OnWire &one, LineTime from, LineTime to)
     one.what.damaged = true;
     for (std::size_t i = 0; i < one.what.bytes.size(); ++i) {
         const LineTime whole = arrival(one.what, i);
-        if (whole > from && whole - one.what.byteTime() < to)
-            one.what.bytes[i] ^= randomByte();
+        if (whole <= from || whole - one.what.byteTime() >= to)
+            continue;
+        const std::uint8_t turned = randomByte();
+        one.what.bytes[i] ^= turned;
+        if (!one.what.atAdapter.empty())
+            one.what.atAdapter[i] ^= turned;
     }
 }
 
@@ -96,35 +100,41 @@ Transmission Wire::takeEnded()
     return ended;
 }
 
-void Wire::hear(Bytes &to, LineTime now, int baudRate)
+void Wire::hear(std::vector<HeardByte> &to, LineTime now, int baudRate)
 {
     for (OnWire &one : m_onWire) {
-        if (!one.what.sender)
+        if (!isHeard(one))
             continue;
+        const Transmission &what = one.what;
+        const Bytes &bytes = what.atAdapter.empty() ? what.bytes : what.atAdapter;
+        const bool understood = understandEachOther(what.baudRate, baudRate);
+        const auto hand = [&](LineTime at, std::uint8_t byte) {
+            to.push_back({at, what.lateness, byte, what.sender != nullptr});
+        };
         Bytes run;
-        while (one.delivered < one.what.bytes.size() && arrival(one.what, one.delivered) <= now) {
-            if (!one.absorbed[one.delivered])
-                run.push_back(one.what.bytes[one.delivered]);
-            ++one.delivered;
+        LineTime last{};
+        for (; one.delivered < bytes.size() && arrival(what, one.delivered) <= now; ++one.delivered) {
+            if (one.absorbed[one.delivered] || one.delivered >= what.lostFrom)
+                continue;
+            last = arrival(what, one.delivered);
+            if (understood)
+                hand(last, bytes[one.delivered]);
+            else
+                run.push_back(bytes[one.delivered]);
         }
-        if (!understandEachOther(one.what.baudRate, baudRate))
-            run = heardAtOtherBaud(run, one.what.baudRate, baudRate);
-        to.insert(to.end(), run.begin(), run.end());
+        if (!run.empty())
+            run = heardAtOtherBaud(run, what.baudRate, baudRate);
+        for (const std::uint8_t byte : run)
+            hand(last, byte);
     }
     forgetDone();
-}
-
-void Wire::discard(LineTime now)
-{
-    Bytes forgotten;
-    hear(forgotten, now, 1);
 }
 
 std::optional<LineTime> Wire::nextByte() const
 {
     std::optional<LineTime> next;
     for (const OnWire &one : m_onWire) {
-        if (!one.what.sender || one.delivered == one.what.bytes.size())
+        if (!isHeard(one) || one.delivered == one.what.bytes.size())
             continue;
         const LineTime at = arrival(one.what, one.delivered);
         next = next ? std::min(*next, at) : at;
@@ -136,16 +146,26 @@ std::optional<LineTime> Wire::quiet() const
 {
     std::optional<LineTime> last;
     for (const OnWire &one : m_onWire) {
-        if (one.what.sender && one.delivered < one.what.bytes.size())
+        if (isHeard(one) && one.delivered < one.what.bytes.size())
             last = last ? std::max(*last, one.what.end()) : one.what.end();
     }
     return last;
 }
 
+std::optional<LineTime> Wire::busyUntil(LineTime at) const
+{
+    std::optional<LineTime> end;
+    for (const OnWire &one : m_onWire) {
+        if (one.what.begin <= at && at < one.what.end())
+            end = end ? std::max(*end, one.what.end()) : one.what.end();
+    }
+    return end;
+}
+
 void Wire::forgetDone()
 {
-    std::erase_if(m_onWire, [](const OnWire &one) {
-        return one.ended && (!one.what.sender || one.delivered == one.what.bytes.size());
+    std::erase_if(m_onWire, [this](const OnWire &one) {
+        return one.ended && (!isHeard(one) || one.delivered == one.what.bytes.size());
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/sim/simulatedbus.h"
 
+#include <limits>
 #include <memory>
 
 namespace dynascope::sim {
@@ -11,6 +12,8 @@ struct Chain;
 
 /// Bytes that somebody puts on the wire without a gap.
 struct Transmission {
+    static constexpr std::size_t NothingLost = std::numeric_limits<std::size_t>::max();
+
     LineTime begin{};
     int baudRate = 57600;
     const Servo *sender = nullptr; ///< nullptr: the controller
@@ -18,9 +21,20 @@ struct Transmission {
     bool damaged = false;          ///< somebody else spoke at the same time
     std::shared_ptr<Chain> chain;  ///< of a group read
     std::size_t index = 0;         ///< place in the chain
+    Bytes atAdapter;               ///< what the controller hears where that differs; as long as `bytes`
+    std::size_t lostFrom = NothingLost; ///< from this byte on the controller hears nothing
+    LineTime lateness{};           ///< the adapter hands it on so much later
 
     LineTime byteTime() const { return LineTime(10'000'000'000LL / baudRate); }
     LineTime end() const { return begin + static_cast<LineTime::rep>(bytes.size()) * byteTime(); }
+};
+
+/// A byte at the controller's end of the wire.
+struct HeardByte {
+    LineTime at{};
+    LineTime lateness{};
+    std::uint8_t byte = 0;
+    bool answer = false; ///< a device's
 };
 
 /// The half-duplex wire: who speaks when, what happens when two do, what the controller hears. Part of the bus.
@@ -34,11 +48,12 @@ public:
     std::optional<LineTime> nextEnd() const; ///< of a transmission that nobody has taken yet
     Transmission takeEnded();                ///< the one that ends first; for the servos' ears
 
-    /// The controller's ear: bytes up to `now`, each once.
-    void hear(Bytes &to, LineTime now, int baudRate);
-    void discard(LineTime now);
+    /// The controller's end: bytes up to `now`, each once.
+    void hear(std::vector<HeardByte> &to, LineTime now, int baudRate);
+    void setEcho(bool echo) { m_echo = echo; } ///< the controller hears itself
     std::optional<LineTime> nextByte() const;
     std::optional<LineTime> quiet() const; ///< when the bytes under way will all have come
+    std::optional<LineTime> busyUntil(LineTime at) const; ///< nothing where nobody speaks at that moment
 
 private:
     struct OnWire {
@@ -47,6 +62,7 @@ private:
         std::size_t delivered = 0;  ///< to the controller
         bool ended = false;         ///< taken
     };
+    bool isHeard(const OnWire &one) const { return one.what.sender || m_echo; }
     void collide(OnWire &first, OnWire &second);
     void scramble(OnWire &one, LineTime from, LineTime to);
     void forgetDone();
@@ -54,6 +70,7 @@ private:
 
     std::vector<OnWire> m_onWire; ///< by begin
     std::uint64_t m_random;
+    bool m_echo = false;
 };
 
 } // namespace dynascope::sim

@@ -107,10 +107,10 @@ private slots:
     void aDamagedOrLostReplyIsAskedForAgain()
     {
         VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1"));
-        world.simulated.faults().corrupt = 1;
+        world.simulated.setFaults({.replies = {{.kind = sim::ReplyFault::Kind::Damaged}}});
         QVERIFY(read(*world.bus, {1, 132, 4}));
         QCOMPARE(world.bus->statistics().crcErrors, quint64(1));
-        world.simulated.faults().drop = 2;
+        world.simulated.setFaults({.replies = {{.kind = sim::ReplyFault::Kind::Lost, .times = 2}}});
         QVERIFY(ping(*world.bus, 1));
         QVERIFY(world.bus->statistics().retries >= 2);
     }
@@ -119,8 +119,7 @@ private slots:
     {
         for (const LineTime lateness : {LineTime(1ms), LineTime(3ms), LineTime(10ms), LineTime(40ms)}) {
             VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1"));
-            world.simulated.faults().delay = 1;
-            world.simulated.faults().lateness = lateness;
+            world.simulated.setFaults({.replies = {{.kind = sim::ReplyFault::Kind::Late, .time = lateness}}});
             (void)world.bus->exchange(readRequest({1, 0, 2}), 0); // 1020
             for (int i = 0; i < 5; ++i) {
                 const auto baud = read(*world.bus, {1, 7, 2}); // ID, Baud Rate
@@ -133,10 +132,9 @@ private slots:
     void echoAndSilenceByLevel()
     {
         VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1"));
-        world.line->setEcho(true);
+        world.simulated.setFaults({.echo = {.on = true}});
         QVERIFY(read(*world.bus, {1, 132, 4}));
         QVERIFY(!ping(*world.bus, 2));
-        world.line->setEcho(false);
         VirtualBus quiet(catalog(), QStringLiteral("XM430-W350@57600:1"));
         QVERIFY(write(*quiet.bus, {1, 68, {1}}, 0).has_value()
             || true); // whether this one is still answered is not documented

@@ -289,15 +289,14 @@ private slots:
         QVERIFY(bus.add({QStringLiteral("XM430-W350"), -1, 57600, 1}));
         Client client{bus};
         const Bytes whole = status(QStringLiteral("01 00 FC 03 2D"));
-        bus.faults().drop = 1;
+        bus.setFaults({.replies = {{.kind = ReplyFault::Kind::Lost}}});
         QVERIFY(client.exchange(QStringLiteral("01 01")).empty());
         QCOMPARE(hex(client.exchange(QStringLiteral("01 01"))), hex(whole));
-        bus.faults().corrupt = 1;
+        bus.setFaults({.replies = {{.kind = ReplyFault::Kind::Damaged}}});
         const Bytes damaged = client.exchange(QStringLiteral("01 01"));
         QCOMPARE(damaged.size(), whole.size());
         QVERIFY(damaged != whole);
-        bus.faults().delay = 1;
-        bus.faults().lateness = 5ms;
+        bus.setFaults({.replies = {{.kind = ReplyFault::Kind::Late, .time = 5ms}}});
         QCOMPARE(hex(client.exchange(QStringLiteral("01 01"))), hex(whole));
         QCOMPARE(client.firstByte, 5ms + 600us + ByteAt57600);
     }

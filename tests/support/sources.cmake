@@ -4,6 +4,7 @@ target_sources(dynascope_test_support PRIVATE
     support/fakeline.cpp support/fakeline.h
     support/fakeservos.cpp support/fakeservos.h
     support/hostileline.cpp support/hostileline.h
+    support/faultmatrix.cpp support/faultmatrix.h support/faultrequests.cpp
     support/hex.cpp support/hex.h
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
