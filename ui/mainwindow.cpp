@@ -123,6 +123,7 @@ void MainWindow::connectConnection()
 {
     const auto connectHere = [this](const QString &port) { connectTo(port, 0); };
     connect(m_connector, &Connector::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(m_connector, &Connector::retracted, m_messages, &MessageBar::retract);
     connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
     connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);
