@@ -185,6 +185,35 @@ private slots:
         QVERIFY(!find<QAction>("torqueOnAction")->isEnabled());
     }
 
+    void aLineThatIsBackIsNoLongerSaidToBeGone()
+    {
+        connectNow();
+        auto *messages = find<MessageBar>("messageBar");
+        m_bench->lines.unplug();
+        QTRY_VERIFY(messages->text().contains(QStringLiteral("is gone")));
+        m_bench->lines.unplug(false);
+        QTRY_VERIFY(messages->text().contains(QStringLiteral("is back")));
+        messages->dismiss();
+        QVERIFY(!messages->text().contains(QStringLiteral("is gone")));
+    }
+
+    void aFailedWriteIsSaidWhereItStands()
+    {
+        connectNow();
+        auto *messages = find<MessageBar>("messageBar");
+        messages->clear();
+        Device *device = selected();
+        const Error error{ErrorKind::NothingReceived, QStringLiteral("ID 1 did not answer"), 0};
+        emit m_bench->commands.failed(device, error, 3);
+        QVERIFY(messages->text().isEmpty()); // the table shows it
+        device->setFailed(3, error.text);
+        emit m_bench->commands.failed(device, error); // another thing, which failed the same way
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+        messages->clear();
+        emit m_bench->commands.failed(m_bench->device(4, 1000000), error, 3); // not the one shown
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+    }
+
     void whatComesBackIsReadAgain()
     {
         connectNow();
