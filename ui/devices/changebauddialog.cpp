@@ -28,6 +28,7 @@ ChangeBaudDialog::ChangeBaudDialog(Device &device, Commands &commands, QWidget *
     m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(57600)));
     form()->addRow(tr("Present baud rate"), new QLabel(baudText(device.baudRate()), this));
     form()->addRow(tr("New baud rate"), m_baud);
+    beginWith(m_baud);
     connect(m_baud, &QComboBox::currentIndexChanged, this, [this] { check(); });
     ChangeBaudDialog::check();
 }
