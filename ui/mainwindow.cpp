@@ -12,6 +12,7 @@
 #include "ui/connection/connector.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
+#include "ui/devices/nicknames.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
@@ -65,7 +66,8 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     setMinimumSize(900, 600);
     build();
     m_layout = new LayoutManager(*this, *m_outer, *m_inner);
-    m_menus = new Menus(*this, m_devices->actions().menuActions(), *m_layout);
+    m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions()}, *m_layout);
+    new Nicknames(workbench, this);
 
     auto *key = new StopKey(this);
     qApp->installEventFilter(key);

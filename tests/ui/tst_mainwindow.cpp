@@ -10,10 +10,14 @@
 #include "ui/window/welcomepage.h"
 
 #include <QAction>
+#include <QFileDialog>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTreeView>
@@ -262,6 +266,43 @@ private slots:
         QCOMPARE(m_window->size(), QSize(1000, 700));
         find<QAction>("resetLayoutAction")->trigger();
         QVERIFY(m_window->findChild<LayoutManager *>()->plotPlace() == PlotPlace::Below || m_window->width() >= 1200);
+    }
+
+    void theColumnsOfOneDeviceFitBesideThePlots()
+    {
+        m_window->resize(1440, 900);
+        connectNow();
+        auto *table = find<QTreeView>("tableView");
+        QTRY_VERIFY(table->header()->count() > 0);
+        QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+        // No name is cut off, nor a heading.
+        const QFontMetrics metrics(table->font());
+        const QAbstractItemModel &model = *table->model();
+        for (int group = 0; group < model.rowCount(); ++group) {
+            const QModelIndex parent = model.index(group, 0);
+            for (int row = 0; row < model.rowCount(parent); ++row) {
+                const QString name = model.index(row, 0, parent).data().toString();
+                const int room = table->columnWidth(0) - 2 * table->indentation() - 8;
+                QVERIFY2(name.startsWith(u"Indirect") || metrics.horizontalAdvance(name) <= room, qPrintable(name));
+            }
+        }
+        m_window->resize(1300, 900);
+        QVERIFY(m_window->findChild<PlotArea *>()->width() >= 372); // the plots keep what they need
+    }
+
+    void plotsAreSavedFromTheFileMenu()
+    {
+        connectNow();
+        QAction *csv = find<QAction>("saveCsvAction");
+        const QAction *file = m_window->menuBar()->actions().front();
+        QVERIFY(file->menu()->actions().contains(csv));
+        QVERIFY(file->menu()->actions().contains(find<QAction>("savePictureAction")));
+        QVERIFY(!csv->isEnabled()); // nothing is plotted
+        const Device *device = selected();
+        m_window->findChild<PlotArea *>()->addTrace({device->key(), device->table().indexOf(u"Present Position")});
+        QVERIFY(csv->isEnabled());
+        QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ControlModifier);
+        QVERIFY(m_window->findChild<QFileDialog *>());
     }
 
     void remembersTheScheme()

@@ -365,7 +365,7 @@ private slots:
         bench.sample(position, 1500ms, 2048);
         QTRY_VERIFY(bench.chart().view().to() > 1500ms);
         QSignalSpy messages(&bench.area, &PlotArea::message);
-        bench.action(QStringLiteral("Save as CSV..."))->trigger();
+        bench.action(QStringLiteral("Save plots as CSV…"))->trigger();
         auto *dialog = bench.area.findChild<QFileDialog *>();
         QVERIFY(dialog);
         const QTemporaryDir directory;
@@ -386,7 +386,7 @@ private slots:
         bench.area.addTrace(position);
         bench.sample(position, 1s, 1024);
         QSignalSpy messages(&bench.area, &PlotArea::message);
-        bench.action(QStringLiteral("Save as picture..."))->trigger();
+        bench.action(QStringLiteral("Save plots as a picture…"))->trigger();
         auto *dialog = bench.area.findChild<QFileDialog *>();
         QVERIFY(dialog);
         const QTemporaryDir directory;

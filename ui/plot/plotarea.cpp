@@ -73,6 +73,11 @@ void PlotArea::connectBar()
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
 }
 
+std::vector<QAction *> PlotArea::saveActions() const
+{
+    return m_bar->saveActions();
+}
+
 PlotPanel *PlotArea::addPanel()
 {
     auto *panel = new PlotPanel(m_session, m_monitor, m_window, m_splitter);
