@@ -21,8 +21,8 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Value: return 70;
     case ColumnKind::Physical: return 164;
     case ColumnKind::Device: return 156;
-    case ColumnKind::Default: return 58;
-    case ColumnKind::Range: return 156;
+    case ColumnKind::Default: return 66;
+    case ColumnKind::Range: return 158;
     case ColumnKind::Access: return 58;
     }
     return 80;

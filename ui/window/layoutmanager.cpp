@@ -16,8 +16,8 @@ namespace {
 constexpr QSize DefaultSize(1440, 900);
 constexpr int WideEnough = 1200; ///< from here on table and plots fit beside each other
 constexpr int DevicesWidth = 248;
-constexpr int TableWidth = 818; ///< shows every column of one device
-constexpr int PlotWidth = 372;  ///< what the table leaves to the plots
+constexpr int TableWidth = 826; ///< shows every column of one device
+constexpr int PlotWidth = 364;  ///< what the table leaves to the plots
 
 const QString GeometryKey = QStringLiteral("window/geometry");
 const QString OuterKey = QStringLiteral("window/outer");
@@ -86,7 +86,7 @@ void LayoutManager::arrange()
         return;
     const int whole = m_place == PlotPlace::Right ? m_inner.width() : m_inner.height();
     const int table = m_place == PlotPlace::Right ? std::max(whole / 2, std::min(TableWidth, whole - PlotWidth))
-                                                  : whole * 60 / 100;
+                                                  : whole * 65 / 100;
     m_inner.setSizes({table, whole - table});
 }
 
