@@ -61,7 +61,9 @@ private:
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
     void awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done);
     void moved(DeviceKey key, const Found &found);
-    void lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old);
+    void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
+                      const Done &report);
+    void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
 
     Session &m_session;
     bool m_stopped = false;

@@ -79,8 +79,6 @@ void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts
                 Device *present = m_session.device(key);
                 if (found && present) {
                     moved(key, *found);
-                    if (m_stopped) // pressed while it booted
-                        setTorque({present}, false);
                     readAll(*present, done);
                 } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
                     if (present)
@@ -106,21 +104,50 @@ void Commands::moved(DeviceKey key, const Found &found)
         device->line()->moveDevice(*device, found);
 }
 
+void Commands::finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
+                            const Done &report)
+{
+    if (!found && found.error().kind == ErrorKind::Stopped)
+        return lookAgain(key, from, to, report);
+    if (!found)
+        return report(tl::unexpected(found.error()));
+    moved(key, *found);
+    if (Device *device = m_session.device(key)) {
+        LineSession *line = device->line();
+        const bool others = std::ranges::any_of(line->devices(), [](const auto &each) {
+            return each->state() == Device::State::Present;
+        });
+        if (found->baudRate != from.baudRate && !others)
+            line->setWorkingBaudRate(found->baudRate);
+        readAll(*device);
+    }
+    report({});
+}
+
 /// STOP came in the middle of a change: nobody knows yet whether the device took it.
-void Commands::lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old)
+void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report)
 {
     Device *device = m_session.device(key);
     if (!device)
-        return;
+        return report(failure(ErrorKind::Stopped, tr("STOP ended the change")));
     device->line()->bus().run<Found>(
-        Priority::Click, this,
-        [changed, old](JobContext &context) {
-            auto found = look(context, changed);
-            return found && found->modelNumber == old.modelNumber ? found : look(context, old);
-        },
-        [this, key](const Result<Found> &found) {
-            if (found)
+        Priority::Click, this, [from, to](JobContext &context) { return lookForMoved(context, from, to); },
+        [this, key, from, to, report](const Result<Found> &found) {
+            Device *present = m_session.device(key);
+            if (found) {
                 moved(key, *found);
+                return report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1 is at ID %2, %3 bps")
+                                                              .arg(from.name)
+                                                              .arg(found->id)
+                                                              .arg(found->baudRate)));
+            }
+            const ErrorKind kind = found.error().kind;
+            const bool pressedAgain = kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled;
+            if (pressedAgain && present && present->line()->state() == BusThread::State::Open)
+                return lookAgain(key, from, to, report);
+            if (present)
+                present->setState(Device::State::Silent);
+            report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1").arg(found.error().text)));
         });
 }
 
@@ -186,18 +213,10 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeId(context, plan); },
-        [this, key = device.key(), old = plan.place, newId = plan.newId, report](const Result<Found> &found) {
-            if (!found && found.error().kind == ErrorKind::Stopped) {
-                DevicePlace changed = old;
-                changed.id = newId;
-                lookAgain(key, changed, old);
-            }
-            if (!found)
-                return report(tl::unexpected(found.error()));
-            moved(key, *found);
-            if (Device *present = m_session.device(key))
-                readAll(*present);
-            report({});
+        [this, key = device.key(), from = plan.place, newId = plan.newId, report](const Result<Found> &found) {
+            DevicePlace to = from;
+            to.id = newId;
+            finishChange(key, from, to, found, report);
         });
 }
 
@@ -218,25 +237,10 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeBaud(context, plan); },
-        [this, key = device.key(), old = plan.place, newBaud, report](const Result<Found> &found) {
-            if (!found && found.error().kind == ErrorKind::Stopped) {
-                DevicePlace changed = old;
-                changed.baudRate = newBaud;
-                lookAgain(key, changed, old);
-            }
-            if (!found)
-                return report(tl::unexpected(found.error()));
-            moved(key, *found);
-            if (Device *present = m_session.device(key)) {
-                LineSession *line = present->line();
-                const bool alone = std::ranges::none_of(line->devices(), [](const auto &each) {
-                    return each->state() == Device::State::Present;
-                });
-                if (alone)
-                    line->setWorkingBaudRate(found->baudRate);
-                readAll(*present);
-            }
-            report({});
+        [this, key = device.key(), from = plan.place, newBaud, report](const Result<Found> &found) {
+            DevicePlace to = from;
+            to.baudRate = newBaud;
+            finishChange(key, from, to, found, report);
         });
 }
 

@@ -31,6 +31,10 @@ StopControl::StopControl(Session &session, Commands &commands, QObject *parent)
 void StopControl::follow(LineSession *line)
 {
     connect(line, &LineSession::deviceChanged, this, [this] { m_prepareTimer.start(); });
+    connect(line, &LineSession::deviceLocated, this, [this](Device *device) {
+        if (m_active) // pressed while it booted or moved: the packets went to where it was
+            turnOff(*device);
+    });
     connect(line, &LineSession::stateChanged, this, [this, line] { adopt(*line); });
     adopt(*line);
 }
@@ -93,7 +97,7 @@ void StopControl::release()
     update();
 }
 
-/// A device that a scan finds while STOP is held.
+/// A device that turns up while STOP is held.
 void StopControl::turnOff(Device &device)
 {
     if (!device.table().find(u"Torque Enable"))
