@@ -36,8 +36,7 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
     if (!answer)
         return tl::unexpected(answer.error());
     const quint64 before = bus.statistics().bytesReceived;
-    const LineTime listen = bus.line().hostAllowance() + 1500us;
-    if (Result<void> listened = bus.settle(listen, listen + 10ms); !listened)
+    if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
         return tl::unexpected(listened.error());
     const bool more = bus.statistics().bytesReceived != before || answer->seen.strayPackets > 0;
     const Result<Reply> &reply = answer->replies.front();
