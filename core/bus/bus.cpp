@@ -160,6 +160,8 @@ Result<void> Bus::prepare()
 {
     if (isStopped())
         return tl::unexpected(messages::stopped());
+    if (isCancelled())
+        return tl::unexpected(messages::cancelled());
     m_received.clear();
     if (Result<void> read = keep(m_line.read(m_received, m_line.now())); !read)
         return read;
@@ -175,6 +177,16 @@ Result<void> Bus::prepare()
     if (Result<void> quiet = settleFor(std::max<LineTime>(1500us, 10 * m_line.byteTime()), SettleLimit, true); !quiet)
         return quiet;
     m_unsettled = false;
+    return {};
+}
+
+/// What is on its way out is let out: a port that is closed under it would cut it.
+Result<void> Bus::mayWait() const
+{
+    if (isStopped())
+        return tl::unexpected(messages::stopped());
+    if (isCancelled() && m_line.now() >= m_sentBy)
+        return tl::unexpected(messages::cancelled());
     return {};
 }
 
@@ -210,10 +222,8 @@ Result<void> Bus::listen(Collector &collector, const Request &request, Waiting &
     if (request.shape == ReplyShape::None && !m_echoes)
         return waitUntil(m_sentBy, true);
     while (!collector.isComplete()) {
-        if (isStopped())
-            return tl::unexpected(messages::stopped());
-        if (request.shape == ReplyShape::Anyone && m_cancel && m_cancel->load(std::memory_order_acquire))
-            return tl::unexpected(messages::cancelled());
+        if (Result<void> may = mayWait(); !may)
+            return may;
         const LineTime now = m_line.now();
         LineTime until = deadline(collector, request, waiting);
         if (collector.isMidPacket()) {
@@ -306,8 +316,8 @@ Result<void> Bus::settleFor(LineTime quiet, LineTime limit, bool heedStop)
     const LineTime end = m_line.now() + limit;
     LineTime silentSince = m_line.now();
     while (m_line.now() < end && m_line.now() - silentSince < quiet) {
-        if (heedStop && isStopped())
-            return tl::unexpected(messages::stopped());
+        if (Result<void> may = heedStop ? mayWait() : Result<void>(); !may)
+            return may;
         if (Result<void> read = receive(std::min({end, silentSince + quiet, m_line.now() + timing::Slice})); !read)
             return read;
         if (m_received.empty())
@@ -340,8 +350,8 @@ Result<void> Bus::setBaudRate(int bitsPerSecond)
 Result<void> Bus::waitUntil(LineTime time, bool heedStop)
 {
     while (m_line.now() < time) {
-        if (heedStop && isStopped())
-            return tl::unexpected(messages::stopped());
+        if (Result<void> may = heedStop ? mayWait() : Result<void>(); !may)
+            return may;
         if (Result<void> read = receive(std::min(time, m_line.now() + timing::Slice)); !read)
             return read;
         m_statistics.bytesReceived += m_received.size();

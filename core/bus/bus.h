@@ -52,8 +52,10 @@ public:
     bool isStopped() const { return m_stop && m_stop->load(std::memory_order_acquire); }
     const BusStatistics &statistics() const { return m_statistics; }
 
-    /// A broadcast Ping, which takes up to 0.8 s, ends with Cancelled once this is set. Not owned; may be null.
+    /// Once this is set no exchange begins or is repeated, and what is waited for ends with Cancelled as soon as the packet
+    /// has left: a broadcast Ping may take 0.8 s, Clear 3 s. Not owned; may be null.
     void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
+    bool isCancelled() const { return m_cancel && m_cancel->load(std::memory_order_acquire); }
 
     /// An idle line is looked at now and then, or nobody would notice that it was unplugged.
     void look() { (void)prepare(); }
@@ -72,6 +74,7 @@ private:
     Result<ExchangeResult> attempt(const Request &request);
     Result<ExchangeResult> perform(const Request &request, Waiting &waiting);
     Result<void> prepare();
+    Result<void> mayWait() const;
     Result<bool> fence(std::uint8_t id, Error &silence);
     Result<void> send(ByteView packet);
     Result<void> listen(Collector &collector, const Request &request, Waiting &waiting);
