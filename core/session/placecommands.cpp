@@ -154,8 +154,8 @@ void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePla
 void Commands::factoryReset(Device &device, ResetOption option, Done done)
 {
     FactoryResetPlan plan{placeOf(device), option, placeOf(device)};
-    const Field *id = device.table().find(u"ID");
-    const Field *baud = device.table().find(u"Baud Rate");
+    const Field *id = device.table().find(Known::Id);
+    const Field *baud = device.table().find(Known::BaudRate);
     if (!id || !baud) {
         return refuse(&device,
                       {ErrorKind::NotSupported,
@@ -192,7 +192,7 @@ void Commands::clearMultiTurn(Device &device, Done done)
 
 void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done)
 {
-    const Field *field = device.table().find(u"ID");
+    const Field *field = device.table().find(Known::Id);
     const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
     if (!field)
         return invalid(tr("The table of %1 has no ID register").arg(device.displayName()));
@@ -205,7 +205,7 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
             continue;
         if (other->id() == newId)
             return invalid(tr("ID %1 is taken by %2").arg(newId).arg(other->displayName()));
-        if (other->raw(u"Secondary ID") == newId)
+        if (other->raw(Known::SecondaryId) == newId)
             return invalid(tr("ID %1 is the Secondary ID of %2").arg(newId).arg(other->displayName()));
     }
     ChangeIdPlan plan{placeOf(device), static_cast<std::uint8_t>(newId), field->address, turnTorqueOff};
@@ -222,7 +222,7 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
 
 void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done done)
 {
-    const Field *field = device.table().find(u"Baud Rate");
+    const Field *field = device.table().find(Known::BaudRate);
     const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
     if (newBaud == device.baudRate())
         return invalid(tr("%1 works at that baud rate already").arg(device.displayName()));

@@ -58,7 +58,7 @@ void StopControl::prepare()
     for (const auto &line : m_session.lines()) {
         std::vector<StopTarget> targets;
         for (const auto &device : line->devices()) {
-            if (const Field *torque = device->table().find(u"Torque Enable"))
+            if (const Field *torque = device->table().find(Known::TorqueEnable))
                 targets.push_back({device->key(), device->id(), device->baudRate(), torque->address});
         }
         line->bus().setStopTargets(std::move(targets));
@@ -100,7 +100,7 @@ void StopControl::release()
 /// A device that turns up while STOP is held.
 void StopControl::turnOff(Device &device)
 {
-    if (!device.table().find(u"Torque Enable"))
+    if (!device.table().find(Known::TorqueEnable))
         return update();
     const DeviceKey key = device.key();
     note({key, false, tr("Not asked yet")});
@@ -126,13 +126,8 @@ void StopControl::take(LineSession *line, const std::vector<StopOutcome> &outcom
     for (const StopOutcome &outcome : outcomes) {
         note(outcome);
         Device *device = m_session.device(outcome.device);
-        if (!device || !outcome.off)
-            continue;
-        PollValue value;
-        value.address = placeOf(*device).torqueAddress;
-        value.data = {0};
-        value.at = device->lastHeard();
-        device->take(value);
+        if (device && outcome.off)
+            device->takeReadBack(device->table().indexOf(Known::TorqueEnable), 0);
     }
     update();
 }
@@ -141,7 +136,7 @@ QStringList StopControl::uncovered() const
 {
     QStringList names;
     for (const Device *device : m_session.devices()) {
-        if (!device->table().find(u"Torque Enable"))
+        if (!device->table().find(Known::TorqueEnable))
             names << device->displayName();
     }
     return names;
