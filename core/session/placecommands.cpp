@@ -60,42 +60,48 @@ void Commands::reboot(Device &device, Done done)
             return report(result);
         if (Device *present = m_session.device(key))
             present->setState(Device::State::Rebooting);
-        awaitReturn(key, place, ReturnAttempts, report);
+        awaitReturn(key, place, place, ReturnAttempts, report);
     };
     runAt(device, [id = device.id()](Bus &bus) { return dynascope::reboot(bus, id); }, sent);
 }
 
-void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done)
+/// After a boot. Where the device should be elsewhere then, the old place is looked at from the second time on: by then who
+/// answers there has ignored what was asked of it.
+void Commands::awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done)
 {
-    QTimer::singleShot(BootTime, this, [this, key, place, attempts, done = std::move(done)] {
+    QTimer::singleShot(BootTime, this, [this, key, from, to, attempts, done = std::move(done)] {
         Device *device = m_session.device(key);
         if (!device) {
             done(failure(ErrorKind::Cancelled, tr("The device is gone")));
             return;
         }
+        const DevicePlace old = attempts < ReturnAttempts ? from : to;
         device->line()->bus().run<Found>(
-            Priority::Click, this, [place](JobContext &context) { return look(context, place); },
-            [this, key, place, attempts, done](const Result<Found> &found) {
+            Priority::Click, this, [old, to](JobContext &context) { return lookForMoved(context, old, to); },
+            [this, key, from, to, attempts, done](const Result<Found> &found) {
                 Device *present = m_session.device(key);
-                if (found && present) {
-                    moved(key, *found);
-                    readAll(*present, done);
-                } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
-                    if (present)
-                        present->setState(Device::State::Silent);
-                    Error error = found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error();
-                    if (error.kind == ErrorKind::NothingReceived) {
-                        error.text = tr("%1 does not answer at ID %2, %3 bps; scan to find it")
-                                         .arg(place.name)
-                                         .arg(place.id)
-                                         .arg(place.baudRate);
-                    }
-                    done(tl::unexpected(std::move(error)));
-                } else {
-                    awaitReturn(key, place, attempts - 1, done);
-                }
+                if (found && present)
+                    return finishReturn(*present, from, to, *found, done);
+                if (present && attempts > 1 && found.error().kind != ErrorKind::PortLost)
+                    return awaitReturn(key, from, to, attempts - 1, done);
+                if (present)
+                    present->setState(Device::State::Silent);
+                done(tl::unexpected(found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error()));
             });
     });
+}
+
+void Commands::finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
+                            const Done &done)
+{
+    moved(device.key(), found);
+    if (isAt(found, to))
+        return readAll(device, done);
+    readAll(device);
+    done(failure(ErrorKind::NotConfirmed, tr("%1 still answers at ID %2, %3 bps: it did not take the reset")
+                                              .arg(from.name)
+                                              .arg(from.id)
+                                              .arg(from.baudRate)));
 }
 
 void Commands::moved(DeviceKey key, const Found &found)
@@ -175,12 +181,12 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                             std::move(done));
     device.line()->bus().run<void>(
         Priority::Click, this, [plan](JobContext &context) { return resetToFactory(context, plan); },
-        [this, key = device.key(), after = plan.after, report](const Result<void> &result) {
+        [this, key = device.key(), from = plan.place, to = plan.after, report](const Result<void> &result) {
             if (!result)
                 return report(result);
             if (Device *present = m_session.device(key))
                 present->setState(Device::State::Rebooting);
-            awaitReturn(key, after, ReturnAttempts, report);
+            awaitReturn(key, from, to, ReturnAttempts, report);
         });
 }
 

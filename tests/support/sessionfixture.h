@@ -83,6 +83,7 @@ public:
     dynascope::sim::SimulatedBus simulated;
     /// Told of each packet before it goes out, with how many there were by then. Bus thread.
     std::function<void(int count, dynascope::ByteView packet)> onPacket;
+    std::function<bool(dynascope::ByteView packet)> isLost; ///< nobody hears such a packet
 
 private:
     class TappedLine final : public dynascope::Line
@@ -100,6 +101,8 @@ private:
         {
             if (m_factory.onPacket)
                 m_factory.onPacket(++m_count, packet);
+            if (m_factory.isLost && m_factory.isLost(packet))
+                return {};
             return m_line.write(packet);
         }
         dynascope::Result<void> read(dynascope::Bytes &buffer, dynascope::LineTime deadline) override

@@ -115,10 +115,15 @@ bool isAt(const Found &found, const DevicePlace &place)
 
 Result<Found> lookForMoved(JobContext &context, const DevicePlace &from, const DevicePlace &to)
 {
-    for (const DevicePlace &place : {to, from}) {
+    const bool moves = to.id != from.id || to.baudRate != from.baudRate;
+    for (const DevicePlace &place : moves ? std::vector{to, from} : std::vector{to}) {
         auto found = look(context, place);
         if (found ? found->modelNumber == from.modelNumber : endsAll(found.error()))
             return found;
+    }
+    if (!moves) {
+        return failure(ErrorKind::NotConfirmed,
+                       tr("%1 does not answer at %2; scan to find it").arg(from.name, placeText(to)));
     }
     return failure(ErrorKind::NotConfirmed,
                    tr("%1 answers neither at %2 nor at %3; scan to find it")

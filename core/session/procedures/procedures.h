@@ -71,7 +71,8 @@ Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, c
 
 /// Is it there? At its own baud rate, wherever the line works.
 Result<Found> look(JobContext &context, const DevicePlace &place);
-/// A device of this model at the new place or else at the old one; NotConfirmed where it is at neither.
+/// A device of this model at the new place or else at the old one, which may be the same; NotConfirmed where it is at
+/// neither.
 Result<Found> lookForMoved(JobContext &context, const DevicePlace &from, const DevicePlace &to);
 bool isAt(const Found &found, const DevicePlace &place);
 
