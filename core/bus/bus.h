@@ -52,8 +52,8 @@ public:
     bool isStopped() const { return m_stop && m_stop->load(std::memory_order_acquire); }
     const BusStatistics &statistics() const { return m_statistics; }
 
-    /// Once this is set no exchange begins or is repeated, and what is waited for ends with Cancelled as soon as the packet
-    /// has left: a broadcast Ping may take 0.8 s, Clear 3 s. Not owned; may be null.
+    /// Once this is set no exchange begins or is repeated, and what is waited for ends with Cancelled as soon as the
+    /// packet has left: a broadcast Ping may take 0.8 s, Clear 3 s. Not owned; may be null.
     void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
     bool isCancelled() const { return m_cancel && m_cancel->load(std::memory_order_acquire); }
 

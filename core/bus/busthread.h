@@ -30,8 +30,9 @@ public:
     /// Delivers nothing any more: close() first where a job's end matters.
     ~BusThread() override;
 
-    /// Ends what runs as soon as the packet in flight has left, even in an exclusive scope, closes the line and delivers
-    /// Cancelled for what was running or queued, before it returns. Only STOP's packets still go out, unverified.
+    /// Ends what runs as soon as the packet in flight has left, even in an exclusive scope, closes the line and
+    /// delivers Cancelled for what was running or queued, before it returns. Only STOP's packets still go out,
+    /// unverified.
     void close();
 
     QString name() const { return m_name; }

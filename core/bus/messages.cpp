@@ -134,6 +134,18 @@ Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack)
             .arg(device(id), hexText(readBack), hexText(written))};
 }
 
+Error mayBeWritten(Error error)
+{
+    error.text += Messages::tr("; the write may have been executed");
+    return error;
+}
+
+Error notWritten(Error error, ByteView written, ByteView readBack)
+{
+    error.text += Messages::tr("; the register reads back %1 instead of %2").arg(hexText(readBack), hexText(written));
+    return error;
+}
+
 Error packetTooLong(std::size_t bytes, std::size_t limit)
 {
     return {ErrorKind::InvalidArgument,

@@ -34,8 +34,8 @@ public:
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
 
-    /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps its
-    /// history until unwatch() or clear().
+    /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
+    /// its history until unwatch() or clear().
     const History *history(const Watch &watch) const;
     void clear(); ///< all histories
 

@@ -65,8 +65,8 @@ void Commands::reboot(Device &device, Done done)
     runAt(device, [id = device.id()](Bus &bus) { return dynascope::reboot(bus, id); }, sent);
 }
 
-/// After a boot. Where the device should be elsewhere then, the old place is looked at from the second time on: by then who
-/// answers there has ignored what was asked of it.
+/// After a boot. Where the device should be elsewhere then, the old place is looked at from the second time on: by then
+/// who answers there has ignored what was asked of it.
 void Commands::awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done)
 {
     QTimer::singleShot(BootTime, this, [this, key, from, to, attempts, done = std::move(done)] {

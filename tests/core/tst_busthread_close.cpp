@@ -13,6 +13,9 @@ namespace {
 
 using Operation = Result<void> (*)(Bus &);
 
+/// At three rates; 9 is nobody.
+const std::vector<StopTarget> Targets{{11, 1, 1'000'000, 64}, {12, 2, 57600, 64}, {13, 3, 9600, 64}, {14, 9, 9600, 64}};
+
 template <typename T>
 Result<void> outcome(const Result<T> &result)
 {
@@ -108,7 +111,7 @@ private slots:
     void stopsPacketsStillGoOutButNobodyIsAskedAnyMore()
     {
         Closing closing(1); // STOP's first packet
-        closing.world.thread.setStopTargets({{11, 1, 1'000'000, 64}, {12, 2, 57600, 64}, {13, 3, 9600, 64}, {14, 9, 9600, 64}});
+        closing.world.thread.setStopTargets(Targets);
         closing.world.thread.stop();
         QCOMPARE(closing.packetsAfter(), 5); // two each at three rates
         for (const FakeLine::Sent &sent : *closing.world.factory.log)
@@ -119,7 +122,7 @@ private slots:
     {
         Closing closing(7); // the first after those of STOP
         QSignalSpy finished(&closing.world.thread, &BusThread::stopFinished);
-        closing.world.thread.setStopTargets({{11, 1, 1'000'000, 64}, {12, 2, 57600, 64}, {13, 3, 9600, 64}, {14, 9, 9600, 64}});
+        closing.world.thread.setStopTargets(Targets);
         closing.world.thread.stop();
         QCOMPARE(closing.packetsAfter(), 0);
         QCOMPARE(finished.size(), 1);

@@ -77,11 +77,13 @@ private slots:
         Brackets brackets;
         QCoreApplication::installTranslator(&brackets);
         const QString port = QStringLiteral("p");
-        const std::vector<Error> all{messages::nothingReceived(1, 1ms), messages::noHeader(1, 2), messages::cutOff(1, 2, 0),
-            messages::cutOff(1, 2, 3), messages::damagedCrc(1), messages::wrongId(1, {2, 3}), messages::wrongLength(1, 2, 3),
-            messages::refused(1, DeviceError::Access), messages::chainBroken(1, 2), messages::silentByLevel(1, 1),
-            messages::stopped(), messages::cancelled(), messages::closed(port), messages::notConfirmed(1, {}, {}),
-            messages::packetTooLong(2, 1), messages::portNotFound(port), messages::portEmpty(port),
+        const std::vector<Error> all{messages::nothingReceived(1, 1ms), messages::noHeader(1, 2),
+            messages::cutOff(1, 2, 0), messages::cutOff(1, 2, 3), messages::damagedCrc(1), messages::wrongId(1, {2, 3}),
+            messages::wrongLength(1, 2, 3), messages::refused(1, DeviceError::Access), messages::chainBroken(1, 2),
+            messages::silentByLevel(1, 1), messages::mayBeWritten(messages::damagedCrc(1)),
+            messages::notWritten(messages::damagedCrc(1), {}, {}), messages::stopped(), messages::cancelled(),
+            messages::closed(port), messages::notConfirmed(1, {}, {}), messages::packetTooLong(2, 1),
+            messages::portNotFound(port), messages::portEmpty(port),
             messages::portForbidden(port), messages::portBusy(port, port), messages::portBusy(port, {}),
             messages::portNotSerial(port), messages::portFailed(port, port), messages::portLost(port),
             messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0)};

@@ -110,7 +110,8 @@ private:
         outcome.moved = id == 7 || baud == 1000000;
         if (outcome.wasStopped) {
             QCOMPARE(change->error().kind, ErrorKind::Stopped);
-            QCOMPARE(said, QStringLiteral("STOP ended the change: XM430-W350 #1 is at ID %1, %2 bps").arg(id).arg(baud));
+            const auto expected = QStringLiteral("STOP ended the change: XM430-W350 #1 is at ID %1, %2 bps");
+            QCOMPARE(said, expected.arg(id).arg(baud));
             QVERIFY(!*torqueOn);
         }
         QVERIFY(!turnedOn);

@@ -32,9 +32,9 @@ struct WriteFieldPlan {
 };
 Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
 
-/// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Writes once, then looks
-/// for the device at the new ID and, failing that, at the old one. STOP may come at any point: then the error is Stopped,
-/// and only lookForMoved() can tell where the device is.
+/// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Writes once, then
+/// looks for the device at the new ID and, failing that, at the old one. STOP may come at any point: then the error is
+/// Stopped, and only lookForMoved() can tell where the device is.
 struct ChangeIdPlan {
     DevicePlace place;
     std::uint8_t newId = 0;
