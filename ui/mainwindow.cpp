@@ -12,6 +12,7 @@
 #include "ui/connection/connector.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
+#include "ui/devices/nicknames.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
@@ -65,7 +66,8 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     setMinimumSize(900, 600);
     build();
     m_layout = new LayoutManager(*this, *m_outer, *m_inner);
-    m_menus = new Menus(*this, m_devices->actions().menuActions(), *m_layout);
+    m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions()}, *m_layout);
+    new Nicknames(workbench, this);
 
     auto *key = new StopKey(this);
     qApp->installEventFilter(key);
@@ -123,6 +125,7 @@ void MainWindow::connectConnection()
 {
     const auto connectHere = [this](const QString &port) { connectTo(port, 0); };
     connect(m_connector, &Connector::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(m_connector, &Connector::retracted, m_messages, &MessageBar::retract);
     connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
     connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);

@@ -55,10 +55,10 @@ Commands::Commands(Session &session, QObject *parent)
 {
 }
 
-void Commands::refuse(Device *device, const Error &error, const Done &done)
+void Commands::refuse(Device *device, const Error &error, const Done &done, int field)
 {
     if (error.kind != ErrorKind::Cancelled)
-        emit failed(device, error);
+        emit failed(device, error, field);
     if (done)
         done(tl::unexpected(error));
 }
@@ -137,7 +137,7 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vect
         if (done)
             done({});
     } else {
-        refuse(device, values.error(), done);
+        refuse(device, values.error(), done, fieldIndex);
     }
     if (!next)
         return;

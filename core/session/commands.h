@@ -44,7 +44,8 @@ public:
 
 signals:
     void succeeded(dynascope::Device *device, const QString &what); ///< for actions a person should hear of
-    void failed(dynascope::Device *device, const dynascope::Error &error); ///< `device` may be null: of a line
+    /// `device` may be null: of a line. Where `field` is one of its fields, that field says the same (Device::value).
+    void failed(dynascope::Device *device, const dynascope::Error &error, int field = -1);
 
 private:
     using FieldKey = std::pair<DeviceKey, int>;
@@ -56,7 +57,7 @@ private:
     Result<void> checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const;
     void sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done);
     void finishWrite(DeviceKey key, int fieldIndex, const Result<std::vector<PollValue>> &values, const Done &done);
-    void refuse(Device *device, const Error &error, const Done &done);
+    void refuse(Device *device, const Error &error, const Done &done, int field = -1);
     Done reporting(Device &device, const QString &success, Done done);
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
     void awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done);

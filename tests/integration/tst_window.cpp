@@ -2,24 +2,12 @@
 #include "app/window/workshop.h"
 #include "core/sim/servo.h"
 #include "tests/support/uitest.h"
-#include "ui/devices/devicepanel.h"
-#include "ui/plot/plotarea.h"
-#include "ui/table/tableroles.h"
+#include "tests/support/windowdriver.h"
 
-#include <QAbstractItemView>
-#include <QAction>
-#include <QComboBox>
+#include <QAbstractButton>
 #include <QDialog>
-#include <QHeaderView>
-#include <QLabel>
-#include <QLineEdit>
-#include <QMenu>
-#include <QPushButton>
 #include <QSettings>
-#include <QSpinBox>
 #include <QTemporaryDir>
-#include <QToolButton>
-#include <QTreeView>
 
 using namespace dynascope;
 
@@ -43,6 +31,7 @@ private slots:
         m_link = m_directory.filePath(QStringLiteral("bus"));
         plugIn();
         m_workshop = std::make_unique<Workshop>(*qApp, WindowOptions());
+        m_person = std::make_unique<test::WindowDriver>(window());
         window().resize(1400, 900);
         window().show();
         window().activateWindow();
@@ -51,65 +40,59 @@ private slots:
 
     void cleanup()
     {
+        m_person.reset();
         m_workshop.reset();
         m_server.reset();
     }
 
     void connectingScansAndFillsTheTree()
     {
-        QVERIFY(child<QWidget>("welcomePage")->isVisible());
-        auto *port = child<QComboBox>("portCombo");
-        port->setEditText(m_link);
-        QTest::mouseClick(child<QAbstractButton>("connectButton"), Qt::LeftButton);
-        QTRY_COMPARE_WITH_TIMEOUT(devices().size(), std::size_t(3), 20000);
-        auto *tree = child<QAbstractItemView>("deviceTree");
-        QTRY_VERIFY(tree->isVisible());
-        QTRY_VERIFY_WITH_TIMEOUT(!m_workshop->scanner().isRunning(), 20000);
-        QCOMPARE(tree->model()->rowCount(), 1); // one line
-        const QModelIndex line = tree->model()->index(0, 0);
-        QCOMPARE(tree->model()->rowCount(line), 2); // two baud rates
-    }
-
-    void aScanCanBeCancelled()
-    {
+        QVERIFY(m_person->child<QWidget>("welcomePage"));
         connectAndFind();
-        QTest::mouseClick(child<QAbstractButton>("scanButton"), Qt::LeftButton);
-        QTRY_VERIFY(m_workshop->scanner().isRunning());
-        QTRY_VERIFY(child<QAbstractButton>("scanCancel")->isVisible());
-        QTest::mouseClick(child<QAbstractButton>("scanCancel"), Qt::LeftButton);
-        QTRY_VERIFY(!m_workshop->scanner().isRunning());
+        QTRY_VERIFY_WITH_TIMEOUT(!m_workshop->scanner().isRunning(), 20000);
+        auto *tree = m_person->child<QTreeView>("deviceTree");
+        QVERIFY(tree);
+        QCOMPARE(tree->model()->rowCount(), 1); // one line
+        QCOMPARE(tree->model()->rowCount(tree->model()->index(0, 0)), 2); // two baud rates
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("3 devices found")), qPrintable(m_person->message()));
     }
 
-    void aGoalTypedIntoTheTableMovesTheJoint()
+    void aScanIsCancelledByItsButton()
+    {
+        selectFirst();
+        QVERIFY(m_person->click("scanButton"));
+        QTRY_VERIFY(m_workshop->scanner().isRunning());
+        QTRY_VERIFY(m_person->child<QWidget>("scanCancel"));
+        QVERIFY(m_person->click("scanCancel"));
+        QTRY_VERIFY(!m_workshop->scanner().isRunning());
+        QVERIFY(m_workshop->scanner().wasCancelled());
+    }
+
+    void aGoalTypedIntoTheTableMovesTheTraceOnThePlot()
     {
         Device &device = selectFirst();
-        trigger("torqueOn");
-        QTRY_VERIFY(device.isTorqueOn());
-        const Watch watch{device.key(), device.table().indexOf(u"Present Position")};
-        window().findChild<PlotArea *>()->addTrace(watch);
-        QTRY_VERIFY(device.raw(u"Present Position").has_value());
-        const std::int64_t goal = *device.raw(u"Present Position") > 2048 ? 1024 : 3072;
-        editField(device, u"Goal Position", QString::number(goal));
+        torqueOn(device);
+        QVERIFY(m_person->clickCell(QStringLiteral("Present Position"), ColumnKind::Plot));
+        QTRY_VERIFY(m_person->paintedHeight() >= 0);
+        QVERIFY2(m_person->paintedHeight() < 0.1, "it stands still: a level trace");
+        const std::int64_t goal = device.raw(u"Present Position").value_or(0) > 2048 ? 1024 : 3072;
+        QVERIFY(m_person->edit(QStringLiteral("Goal Position"), QString::number(goal)));
         QTRY_COMPARE(device.raw(u"Goal Position"), goal);
         QTRY_VERIFY_WITH_TIMEOUT(std::abs(*device.raw(u"Present Position") - goal) < 40, 5000);
-        const History *history = m_workshop->monitor().history(watch);
-        QVERIFY(history);
-        std::int32_t least = 0;
-        std::int32_t most = 0;
-        QVERIFY(history->range(LineTime::min(), LineTime::max(), least, most));
-        QVERIFY(most - least > 500);
+        QTRY_VERIFY(m_person->paintedHeight() > 0.5);
+        QVERIFY(m_person->clickCell(QStringLiteral("Present Position"), ColumnKind::Plot)); // unticked
+        QTRY_VERIFY(m_person->paintedHeight() < 0);
     }
 
     void aValueThatDoesNotFitIsNotWritten()
     {
         Device &device = selectFirst();
         QTRY_VERIFY(device.raw(u"Goal Position").has_value());
-        const std::int64_t before = *device.raw(u"Goal Position");
-        editField(device, u"Goal Position", QStringLiteral("99999"));
-        QVERIFY(editor()); // still open: it says why
-        QTest::keyClick(editor(), Qt::Key_Escape); // leaves the editor, and presses STOP
-        QTRY_VERIFY(!editor());
-        m_workshop->stop().release();
+        const std::int64_t before = truth(1, u"Goal Position");
+        QVERIFY(m_person->edit(QStringLiteral("Goal Position"), QStringLiteral("99999")));
+        QVERIFY(m_person->editor()); // still open: it says why
+        m_person->key(Qt::Key_Escape); // leaves the editor, and presses STOP
+        QTRY_VERIFY(!m_person->editor());
         QCOMPARE(truth(1, u"Goal Position"), before);
     }
 
@@ -117,39 +100,43 @@ private slots:
     {
         Device &device = selectFirst();
         const DeviceKey key = device.key();
-        trigger("changeId");
-        QTRY_VERIFY(child<QDialog>("changeIdDialog"));
-        child<QSpinBox>("newId")->setValue(42);
-        QTest::mouseClick(child<QAbstractButton>("acceptButton"), Qt::LeftButton);
+        openDialog(device, "changeIdAction", "changeIdDialog");
+        m_person->type(QStringLiteral("42")); // the number has the focus and is selected
+        m_person->key(Qt::Key_Return);
         QTRY_COMPARE_WITH_TIMEOUT(device.id(), 42, 5000);
         QCOMPARE(m_workshop->session().device(key), &device);
-        QTRY_VERIFY2(messageText().contains(QStringLiteral("now has ID 42")), qPrintable(messageText()));
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("now has ID 42")), qPrintable(m_person->message()));
         QCOMPARE(truth(42, u"ID"), 42);
     }
 
     void refusesATakenIdInTheDialog()
     {
-        selectFirst();
-        trigger("changeId");
-        QTRY_VERIFY(child<QDialog>("changeIdDialog"));
-        child<QSpinBox>("newId")->setValue(2);
-        QVERIFY(!child<QAbstractButton>("acceptButton")->isEnabled());
-        child<QDialog>("changeIdDialog")->reject();
+        Device &device = selectFirst();
+        openDialog(device, "changeIdAction", "changeIdDialog");
+        m_person->type(QStringLiteral("2"));
+        QVERIFY(!m_person->child<QAbstractButton>("acceptButton")->isEnabled());
+        m_person->key(Qt::Key_Return);
+        QVERIFY(m_person->child<QDialog>("changeIdDialog"));
+        QCOMPARE(truth(1, u"ID"), 1);
     }
 
     void changesABaudRateThroughTheDialog()
     {
         Device &device = selectFirst();
-        trigger("changeBaud");
-        QTRY_VERIFY(child<QDialog>("changeBaudDialog"));
-        auto *rates = child<QComboBox>("newBaud");
-        const int at = rates->findData(2000000);
-        QVERIFY(at >= 0);
-        rates->setCurrentIndex(at);
-        QTest::mouseClick(child<QAbstractButton>("acceptButton"), Qt::LeftButton);
+        openDialog(device, "changeBaudAction", "changeBaudDialog");
+        auto *rates = m_person->child<QComboBox>("newBaud");
+        const int wanted = rates->findData(2000000);
+        QVERIFY(wanted >= 0);
+        m_person->click(rates);
+        QTRY_VERIFY(QApplication::activePopupWidget());
+        QAbstractItemView *list = rates->view();
+        list->scrollTo(list->model()->index(wanted, 0));
+        m_person->click(list->viewport(), list->visualRect(list->model()->index(wanted, 0)).center());
+        QTRY_COMPARE(rates->currentIndex(), wanted);
+        QVERIFY(m_person->click("acceptButton"));
         QTRY_COMPARE_WITH_TIMEOUT(device.baudRate(), 2000000, 5000);
         QCOMPARE(device.state(), Device::State::Parked); // the other one stays where it was
-        QTRY_VERIFY(messageText().contains(QStringLiteral("2000000")) || messageText().contains(QStringLiteral("2 M")));
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("now works at 2000000")), qPrintable(m_person->message()));
     }
 
     void escapeStops_data()
@@ -158,80 +145,126 @@ private slots:
         QTest::newRow("with nothing open") << QString();
         QTest::newRow("in an editor") << QStringLiteral("editor");
         QTest::newRow("in a dialog") << QStringLiteral("dialog");
-        QTest::newRow("in a menu") << QStringLiteral("menu");
+        QTest::newRow("in the menu bar's menu") << QStringLiteral("menu");
+        QTest::newRow("in a context menu") << QStringLiteral("context menu");
     }
     void escapeStops()
     {
         QFETCH(QString, open);
         Device &device = selectFirst();
-        trigger("torqueOn");
-        QTRY_VERIFY(device.isTorqueOn());
-        QWidget *receiver = &window();
-        QMenu menu;
-        if (open == QLatin1String("editor")) {
-            QVERIFY(openEditor(device, u"Goal Position"));
-            receiver = editor();
-        } else if (open == QLatin1String("dialog")) {
-            trigger("changeId");
-            QTRY_VERIFY(child<QDialog>("changeIdDialog"));
-            receiver = child<QDialog>("changeIdDialog");
-        } else if (open == QLatin1String("menu")) {
-            menu.addAction(QStringLiteral("something"));
-            menu.popup(window().mapToGlobal(QPoint(10, 10)));
-            receiver = &menu;
-        }
-        QTest::keyClick(receiver, Qt::Key_Escape);
+        torqueOn(device);
+        if (open == u"editor")
+            QVERIFY(m_person->openEditor(QStringLiteral("Goal Position")));
+        else if (open == u"dialog")
+            openDialog(device, "changeIdAction", "changeIdDialog");
+        else if (open == u"menu")
+            QVERIFY(m_person->openMenu(QStringLiteral("Device")));
+        else if (open == u"context menu")
+            QVERIFY(m_person->clickDevice(device, Qt::RightButton) && QApplication::activePopupWidget());
+        m_person->key(Qt::Key_Escape);
         QVERIFY(m_workshop->stop().isActive());
         QTRY_VERIFY(m_workshop->stop().isConfirmed());
         QCOMPARE(truth(1, u"Torque Enable"), 0);
-        if (open == QLatin1String("dialog")) // Esc has kept its usual meaning
-            QTRY_VERIFY(!child<QDialog>("changeIdDialog") || !child<QDialog>("changeIdDialog")->isVisible());
-        if (open == QLatin1String("menu"))
-            QVERIFY(!menu.isVisible());
-        m_workshop->stop().release();
+        // Esc has kept its usual meaning.
+        QTRY_VERIFY(!m_person->editor() && !m_person->child<QDialog>("changeIdDialog"));
+        QVERIFY(!QApplication::activePopupWidget());
     }
 
     void theStopButtonHoldsUntilReleased()
     {
         Device &device = selectFirst();
-        trigger("torqueOn");
-        QTRY_VERIFY(device.isTorqueOn());
-        auto *button = child<QAbstractButton>("stopButton");
-        QTest::mouseClick(button, Qt::LeftButton);
+        torqueOn(device);
+        QVERIFY(m_person->click("stopButton"));
         QTRY_VERIFY(m_workshop->stop().isConfirmed());
         QTRY_VERIFY(!device.isTorqueOn());
-        trigger("torqueOn"); // refused, and said
-        QTRY_VERIFY2(messageText().contains(QStringLiteral("STOP is held")), qPrintable(messageText()));
+        QVERIFY(m_person->pickForDevice(device, "torqueOnAction")); // refused, and said
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("STOP is held")), qPrintable(m_person->message()));
         QCOMPARE(truth(1, u"Torque Enable"), 0);
-        QTest::mouseClick(button, Qt::LeftButton); // releases
+        QVERIFY(m_person->click("stopButton")); // releases
         QVERIFY(!m_workshop->stop().isActive());
-        trigger("torqueOn");
-        QTRY_VERIFY(device.isTorqueOn());
+        torqueOn(device);
     }
 
+    void aPulledPlugIsSaidAndTakenUpAgain_data()
+    {
+        QTest::addColumn<QString>("open");
+        QTest::newRow("with nothing open") << QString();
+        QTest::newRow("with an editor open") << QStringLiteral("editor");
+        QTest::newRow("with a dialog open") << QStringLiteral("dialog");
+    }
     void aPulledPlugIsSaidAndTakenUpAgain()
     {
+        QFETCH(QString, open);
         Device &device = selectFirst();
-        QTRY_VERIFY(device.raw(u"Present Position").has_value());
+        QTRY_VERIFY(device.raw(u"Profile Velocity").has_value());
+        if (open == u"editor") {
+            QVERIFY(m_person->openEditor(QStringLiteral("Profile Velocity")));
+            m_person->type(QStringLiteral("55"));
+        } else if (open == u"dialog") {
+            openDialog(device, "changeIdAction", "changeIdDialog");
+        }
         m_server.reset();
-        QTRY_COMPARE_WITH_TIMEOUT(m_workshop->session().lines().front()->state(), BusThread::State::Lost, 5000);
-        QTRY_VERIFY(!messageText().isEmpty());
+        QTRY_COMPARE_WITH_TIMEOUT(line().state(), BusThread::State::Lost, 5000);
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("is gone")), qPrintable(m_person->message()));
         QCOMPARE(devices().size(), std::size_t(3)); // nothing is lost on screen
+        if (open == u"editor") {
+            QVERIFY(m_person->editor() && m_person->editor()->text() == QStringLiteral("55"));
+            m_person->key(Qt::Key_Return); // to nobody
+            QTRY_VERIFY(!m_person->editor());
+        } else if (open == u"dialog") {
+            QVERIFY(!m_person->child<QAbstractButton>("acceptButton")->isEnabled());
+        }
         plugIn();
-        QTRY_COMPARE_WITH_TIMEOUT(m_workshop->session().lines().front()->state(), BusThread::State::Open, 10000);
-        const int position = device.table().indexOf(u"Present Position");
-        QTRY_COMPARE_WITH_TIMEOUT(device.value(position).state, FieldState::Fresh, 5000);
+        QTRY_COMPARE_WITH_TIMEOUT(line().state(), BusThread::State::Open, 10000);
+        QTRY_VERIFY(!m_person->message().contains(QStringLiteral("is gone")));
+        const int velocity = device.table().indexOf(u"Profile Velocity");
+        QTRY_COMPARE_WITH_TIMEOUT(device.value(velocity).state, FieldState::Fresh, 5000);
+        QCOMPARE(truth(1, u"Profile Velocity"), 0); // nothing was kept for it
+        if (open == u"dialog") {
+            QTRY_VERIFY(m_person->child<QAbstractButton>("acceptButton")->isEnabled());
+            m_person->key(Qt::Key_Escape);
+            m_workshop->stop().release();
+            window().activateWindow(); // there is no window manager to do it
+            QVERIFY(QTest::qWaitForWindowActive(&window()));
+        }
+        QVERIFY(m_person->edit(QStringLiteral("Profile Velocity"), QStringLiteral("77")));
+        QTRY_COMPARE(device.raw(u"Profile Velocity"), 77);
+        QCOMPARE(truth(1, u"Profile Velocity"), 77);
+    }
+
+    void aDeviceThatVanishesWhileItIsEdited()
+    {
+        Device &device = selectFirst();
+        QTRY_VERIFY(device.raw(u"Profile Velocity").has_value());
+        QVERIFY(m_person->openEditor(QStringLiteral("Profile Velocity")));
+        m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->setPlugged(false); });
+        m_person->type(QStringLiteral("55"));
+        m_person->key(Qt::Key_Return);
+        const int velocity = device.table().indexOf(u"Profile Velocity");
+        QTRY_COMPARE_WITH_TIMEOUT(device.value(velocity).state, FieldState::Failed, 5000);
+        QVERIFY(!device.value(velocity).error.isEmpty());
+        QTRY_COMPARE_WITH_TIMEOUT(device.state(), Device::State::Silent, 5000);
+        m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->setPlugged(true); });
+        QTRY_COMPARE_WITH_TIMEOUT(device.state(), Device::State::Present, 10000);
+        QVERIFY(m_person->edit(QStringLiteral("Profile Velocity"), QStringLiteral("77")));
+        QTRY_COMPARE(truth(1, u"Profile Velocity"), 77);
+    }
+
+    void aDeviceThatVanishesBehindItsDialog()
+    {
+        Device &device = selectFirst();
+        openDialog(device, "changeIdAction", "changeIdDialog");
+        m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->setPlugged(false); });
+        m_person->type(QStringLiteral("42"));
+        QVERIFY(m_person->click("acceptButton"));
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("did not answer")), qPrintable(m_person->message()));
+        QCOMPARE(device.id(), 1);
     }
 
 private:
     MainWindow &window() { return m_workshop->window(); }
-
-    template <typename Widget>
-    Widget *child(const char *name)
-    {
-        const auto found = window().findChildren<Widget *>(QString::fromLatin1(name));
-        return found.isEmpty() ? nullptr : found.constLast();
-    }
+    LineSession &line() const { return *m_workshop->session().lines().front(); }
+    std::vector<Device *> devices() const { return m_workshop->session().devices(); }
 
     void plugIn()
     {
@@ -246,93 +279,40 @@ private:
         m_server = std::move(*server);
     }
 
+    /// Types the port and connects; ends when all have been found.
     void connectAndFind()
     {
-        window().connectTo(m_link, 57600);
+        auto *port = m_person->child<QComboBox>("portCombo");
+        m_person->click(port->lineEdit());
+        m_person->key(Qt::Key_A, Qt::ControlModifier);
+        m_person->type(m_link);
+        QVERIFY(m_person->click("connectButton"));
         QTRY_COMPARE_WITH_TIMEOUT(devices().size(), std::size_t(3), 20000);
-        m_workshop->scanner().cancel(); // all are found: no need to try the other rates
-        QTRY_VERIFY(!m_workshop->scanner().isRunning());
+        QTRY_VERIFY(m_person->child<QTreeView>("deviceTree"));
     }
 
+    /// All are found: no need to try the other rates.
     Device &selectFirst()
     {
         connectAndFind();
+        m_person->click("scanCancel");
+        [this] { QTRY_VERIFY(!m_workshop->scanner().isRunning()); }();
         Device *device = devices().front();
-        child<DevicePanel>("devicePanel")->selectDevice(device);
+        [&] { QVERIFY(m_person->clickDevice(*device)); }();
         return *device;
     }
 
-    std::vector<Device *> devices() const { return m_workshop->session().devices(); }
-
-    void trigger(const char *name)
+    void torqueOn(const Device &device)
     {
-        auto *action = window().findChild<QAction *>(QString::fromLatin1(name) + QStringLiteral("Action"));
-        QVERIFY2(action, name);
-        QTRY_VERIFY2(action->isEnabled(), name);
-        action->trigger();
+        QVERIFY(m_person->pickForDevice(device, "torqueOnAction"));
+        QTRY_VERIFY(device.isTorqueOn());
     }
 
-    QString messageText()
+    void openDialog(const Device &device, const char *action, const char *name)
     {
-        QStringList texts;
-        for (const QLabel *label : window().findChildren<QLabel *>(QStringLiteral("messageText")))
-            texts << label->text();
-        return texts.join(QLatin1Char(' ')).trimmed();
-    }
-
-    /// The cell of a register's value, scrolled into view.
-    QModelIndex cellOf(const Device &device, QStringView name)
-    {
-        auto *view = child<QAbstractItemView>("tableView");
-        child<QLineEdit>("tableSearch")->setText(name.toString());
-        const QAbstractItemModel *model = view->model();
-        const QModelIndexList rows = model->match(model->index(0, 0), Qt::DisplayRole, name.toString(), 1,
-                                                  Qt::MatchExactly | Qt::MatchRecursive);
-        if (rows.isEmpty() || !device.table().find(name))
-            return {};
-        for (int column = 0; column < model->columnCount(); ++column) {
-            const QModelIndex cell = rows.constFirst().siblingAtColumn(column);
-            if (cell.flags().testFlag(Qt::ItemIsEditable)) {
-                view->scrollTo(cell);
-                view->setCurrentIndex(cell);
-                return cell;
-            }
-        }
-        return {};
-    }
-
-    bool openEditor(const Device &device, QStringView name)
-    {
-        QModelIndex cell;
-        if (!QTest::qWaitFor([&] { return (cell = cellOf(device, name)).isValid(); }))
-            return false;
-        auto *view = child<QAbstractItemView>("tableView");
-        view->setFocus();
-        QTest::keyClick(view, Qt::Key_F2);
-        return QTest::qWaitFor([&] { return editor() != nullptr; });
-    }
-
-    QLineEdit *editor() { return child<QAbstractItemView>("tableView")->findChild<QLineEdit *>(QStringLiteral("valueEdit")); }
-
-    QString whereFocusIs()
-    {
-        const QWidget *focus = QApplication::focusWidget();
-        auto *view = child<QAbstractItemView>("tableView");
-        return QStringLiteral("focus in %1, current row %2, %3 rows, search %4")
-            .arg(focus ? QString::fromLatin1(focus->metaObject()->className()) + QLatin1Char(32) + focus->objectName() + QStringLiteral(" in ")
-                             + focus->window()->objectName()
-                       : QStringLiteral("nothing"),
-                 view->currentIndex().siblingAtColumn(0).data().toString())
-            .arg(view->model()->rowCount())
-            .arg(child<QLineEdit>("tableSearch")->text());
-    }
-
-    void editField(const Device &device, QStringView name, const QString &text)
-    {
-        QVERIFY2(openEditor(device, name), qPrintable(whereFocusIs()));
-        editor()->selectAll();
-        QTest::keyClicks(editor(), text);
-        QTest::keyClick(editor(), Qt::Key_Return);
+        QVERIFY(m_person->pickForDevice(device, action));
+        QTRY_VERIFY(m_person->child<QDialog>(name));
+        QVERIFY(QTest::qWaitForWindowActive(m_person->child<QDialog>(name)));
     }
 
     std::int64_t truth(int id, QStringView name)
@@ -350,6 +330,7 @@ private:
     Catalog m_catalog;
     std::unique_ptr<sim::PtyServer> m_server;
     std::unique_ptr<Workshop> m_workshop;
+    std::unique_ptr<test::WindowDriver> m_person;
 };
 
 DYNASCOPE_UI_TEST(TestWindow)

@@ -130,6 +130,48 @@ private slots:
         QCOMPARE(m_bench->session.devices().size(), std::size_t(3));
     }
 
+    void aLineOpenedDuringAScanIsScannedNext()
+    {
+        m_connector->connectTo(QStringLiteral("/dev/ttyUSB0"), 1000000);
+        m_connector->connectTo(QStringLiteral("/dev/ttyUSB1"), 1000000);
+        QTRY_COMPARE(m_bench->session.devices().size(), std::size_t(6)); // three on either
+        QTRY_COMPARE(m_said.count(QStringLiteral("3 devices found")), 2);
+        QVERIFY(!m_connector->scannedLine());
+    }
+
+    void aWaitingScanEndsWithItsLineOrAtStop_data()
+    {
+        QTest::addColumn<bool>("stop");
+        QTest::newRow("line closed") << false;
+        QTest::newRow("STOP") << true;
+    }
+    void aWaitingScanEndsWithItsLineOrAtStop()
+    {
+        QFETCH(bool, stop);
+        bool acted = false;
+        const auto act = [&] {
+            LineSession *first = m_connector->scannedLine();
+            const auto open = [](const auto &line) { return line->state() == BusThread::State::Open; };
+            if (acted || !first || m_bench->session.lines().size() < 2
+                || !std::ranges::all_of(m_bench->session.lines(), open))
+                return;
+            acted = true;
+            const auto &lines = m_bench->session.lines();
+            if (stop)
+                m_bench->stop.press();
+            else
+                m_connector->disconnectFrom(*lines[lines[0].get() == first ? 1 : 0]);
+        };
+        connect(m_connector.get(), &Connector::changed, this, act, Qt::QueuedConnection);
+        m_connector->connectTo(QStringLiteral("/dev/ttyUSB0"), 1000000);
+        m_connector->connectTo(QStringLiteral("/dev/ttyUSB1"), 1000000);
+        QTRY_VERIFY(acted && !m_bench->scanner.isRunning());
+        m_connector->disconnect(this);
+        QCoreApplication::processEvents();
+        QVERIFY(!m_bench->scanner.isRunning());
+        QVERIFY(m_bench->session.devices().size() <= 3);
+    }
+
     void movesTheLineToAnotherRate()
     {
         connectNow();

@@ -120,6 +120,7 @@ private slots:
         auto *baud = dialog.findChild<QComboBox *>(QStringLiteral("newBaud"));
         QCOMPARE(baud->count(), static_cast<int>(m_device->table().description().baudCodes.size()) - 1);
         QCOMPARE(baud->findData(1000000), -1);
+        QVERIFY(canAccept(dialog)); // it doesn't begin with 57 600, where its ID is taken
     }
 
     void baudSaysWhatFollows()

@@ -10,10 +10,14 @@
 #include "ui/window/welcomepage.h"
 
 #include <QAction>
+#include <QFileDialog>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
+#include <QMenuBar>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTreeView>
@@ -185,6 +189,35 @@ private slots:
         QVERIFY(!find<QAction>("torqueOnAction")->isEnabled());
     }
 
+    void aLineThatIsBackIsNoLongerSaidToBeGone()
+    {
+        connectNow();
+        auto *messages = find<MessageBar>("messageBar");
+        m_bench->lines.unplug();
+        QTRY_VERIFY(messages->text().contains(QStringLiteral("is gone")));
+        m_bench->lines.unplug(false);
+        QTRY_VERIFY(messages->text().contains(QStringLiteral("is back")));
+        messages->dismiss();
+        QVERIFY(!messages->text().contains(QStringLiteral("is gone")));
+    }
+
+    void aFailedWriteIsSaidWhereItStands()
+    {
+        connectNow();
+        auto *messages = find<MessageBar>("messageBar");
+        messages->clear();
+        Device *device = selected();
+        const Error error{ErrorKind::NothingReceived, QStringLiteral("ID 1 did not answer"), 0};
+        emit m_bench->commands.failed(device, error, 3);
+        QVERIFY(messages->text().isEmpty()); // the table shows it
+        device->setFailed(3, error.text);
+        emit m_bench->commands.failed(device, error); // another thing, which failed the same way
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+        messages->clear();
+        emit m_bench->commands.failed(m_bench->device(4, 1000000), error, 3); // not the one shown
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+    }
+
     void whatComesBackIsReadAgain()
     {
         connectNow();
@@ -233,6 +266,48 @@ private slots:
         QCOMPARE(m_window->size(), QSize(1000, 700));
         find<QAction>("resetLayoutAction")->trigger();
         QVERIFY(m_window->findChild<LayoutManager *>()->plotPlace() == PlotPlace::Below || m_window->width() >= 1200);
+    }
+
+    void theColumnsOfOneDeviceFitBesideThePlots()
+    {
+        m_window->resize(1440, 900);
+        connectNow();
+        auto *table = find<QTreeView>("tableView");
+        QTRY_VERIFY(table->header()->count() > 0);
+        QCOMPARE(table->horizontalScrollBar()->maximum(), 0);
+        // No heading is cut off, nor a name.
+        const QFontMetrics metrics(table->font());
+        const QAbstractItemModel &model = *table->model();
+        for (int column = 0; column < model.columnCount(); ++column) {
+            const QString heading = model.headerData(column, Qt::Horizontal).toString();
+            QVERIFY2(metrics.horizontalAdvance(heading) + 16 <= table->columnWidth(column) || column == 1,
+                qPrintable(heading)); // the second is centred and has no margin
+        }
+        for (int group = 0; group < model.rowCount(); ++group) {
+            const QModelIndex parent = model.index(group, 0);
+            for (int row = 0; row < model.rowCount(parent); ++row) {
+                const QString name = model.index(row, 0, parent).data().toString();
+                const int room = table->columnWidth(0) - 2 * table->indentation() - 8;
+                QVERIFY2(name.startsWith(u"Indirect") || metrics.horizontalAdvance(name) <= room, qPrintable(name));
+            }
+        }
+        m_window->resize(1300, 900);
+        QVERIFY(m_window->findChild<PlotArea *>()->width() >= 364); // the plots keep what they need
+    }
+
+    void plotsAreSavedFromTheFileMenu()
+    {
+        connectNow();
+        QAction *csv = find<QAction>("saveCsvAction");
+        const QAction *file = m_window->menuBar()->actions().front();
+        QVERIFY(file->menu()->actions().contains(csv));
+        QVERIFY(file->menu()->actions().contains(find<QAction>("savePictureAction")));
+        QVERIFY(!csv->isEnabled()); // nothing is plotted
+        const Device *device = selected();
+        m_window->findChild<PlotArea *>()->addTrace({device->key(), device->table().indexOf(u"Present Position")});
+        QVERIFY(csv->isEnabled());
+        QTest::keyClick(m_window.get(), Qt::Key_S, Qt::ControlModifier);
+        QVERIFY(m_window->findChild<QFileDialog *>());
     }
 
     void remembersTheScheme()

@@ -61,6 +61,23 @@ private slots:
         QVERIFY(bar.isHidden());
     }
 
+    void whatIsNoLongerSoGoes()
+    {
+        MessageBar bar;
+        bar.post(MessageKind::Info, QStringLiteral("saved"));
+        bar.post(MessageKind::Error, QStringLiteral("gone"));
+        bar.post(MessageKind::Success, QStringLiteral("found"));
+        bar.retract(QStringLiteral("something else"));
+        QCOMPARE(bar.text(), QStringLiteral("gone"));
+        bar.retract(QStringLiteral("gone"));
+        QCOMPARE(bar.text(), QStringLiteral("found"));
+        bar.post(MessageKind::Error, QStringLiteral("refused"));
+        bar.post(MessageKind::Warning, QStringLiteral("slow"));
+        bar.retract(QStringLiteral("slow")); // waits
+        bar.dismiss();
+        QVERIFY(bar.isHidden());
+    }
+
     void ownerDecidesWhereItCantBeDismissed()
     {
         MessageBar bar;

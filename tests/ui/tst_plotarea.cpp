@@ -5,12 +5,14 @@
 #include "ui/plot/plotarea.h"
 #include "ui/plot/plotbar.h"
 #include "ui/plot/plotchart.h"
+#include "ui/plot/plotexport.h"
 #include "ui/plot/plotpanel.h"
 #include "ui/plot/tracedelegate.h"
 #include "ui/plot/tracelist.h"
 #include "ui/plot/tracemodel.h"
 
 #include <QAbstractItemModelTester>
+#include <QBuffer>
 #include <QContextMenuEvent>
 #include <QDropEvent>
 #include <QFileDialog>
@@ -83,6 +85,20 @@ struct Bench {
                 return action;
         }
         return nullptr;
+    }
+};
+
+class PaintCount final : public QObject
+{
+public:
+    explicit PaintCount(QWidget &widget) { widget.installEventFilter(this); }
+
+    int count = 0;
+
+    bool eventFilter(QObject *, QEvent *event) override
+    {
+        count += event->type() == QEvent::Paint;
+        return false;
     }
 };
 
@@ -349,7 +365,7 @@ private slots:
         bench.sample(position, 1500ms, 2048);
         QTRY_VERIFY(bench.chart().view().to() > 1500ms);
         QSignalSpy messages(&bench.area, &PlotArea::message);
-        bench.action(QStringLiteral("Save as CSV..."))->trigger();
+        bench.action(QStringLiteral("Save plots as CSV…"))->trigger();
         auto *dialog = bench.area.findChild<QFileDialog *>();
         QVERIFY(dialog);
         const QTemporaryDir directory;
@@ -361,6 +377,43 @@ private slots:
         QCOMPARE(QString::fromUtf8(file.readAll()),
             QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n0.500000,180.00\n"));
         QCOMPARE(messages.count(), 1);
+    }
+
+    void plotsAreSavedAsAPicture()
+    {
+        Bench bench;
+        const Watch position = bench.watch(bench.first, "Present Position");
+        bench.area.addTrace(position);
+        bench.sample(position, 1s, 1024);
+        QSignalSpy messages(&bench.area, &PlotArea::message);
+        bench.action(QStringLiteral("Save plots as a picture…"))->trigger();
+        auto *dialog = bench.area.findChild<QFileDialog *>();
+        QVERIFY(dialog);
+        const QTemporaryDir directory;
+        const QString path = directory.filePath(QStringLiteral("plot.png"));
+        emit dialog->fileSelected(path);
+        dialog->close();
+        QCOMPARE(QImage(path).size(), bench.area.panels().front()->size() * bench.area.devicePixelRatio());
+        QCOMPARE(messages.value(0).value(0).toString(), QStringLiteral("Saved %1").arg(path));
+    }
+
+    void whatCantBeSavedSaysWhy()
+    {
+        const QTemporaryDir directory;
+        const QString nowhere = directory.filePath(QStringLiteral("no/such/folder/plot"));
+        const QString refused = QStringLiteral("%1 could not be written: No such file or directory").arg(nowhere);
+        const Result<void> csv = saveCsv(nowhere, {}, 0s, 1s);
+        QVERIFY(!csv);
+        QCOMPARE(csv.error().text, refused);
+        const QString here = directory.filePath(QStringLiteral("plot.png"));
+        const Result<void> picture = savePicture(here, QPixmap()); // nothing to save: no fault of the file
+        QVERIFY(!picture);
+        QCOMPARE(picture.error().text, QStringLiteral("%1 could not be written").arg(here));
+        QVERIFY(!QFile::exists(here));
+        QBuffer closedToWriting;
+        closedToWriting.open(QIODevice::ReadOnly);
+        QTest::ignoreMessage(QtWarningMsg, "QIODevice::write (QBuffer): ReadOnly device");
+        QVERIFY(!writeCsv(closedToWriting, {}, 0s, 1s)); // already its first line
     }
 
     void tracesComeBackWithTheirDevices()
@@ -388,6 +441,45 @@ private slots:
         QVERIFY(!bench.model(1).isVisible(0));
         bench.area.restoreState("nonsense");
         QCOMPARE(bench.area.panels().size(), std::size_t(2));
+    }
+
+    void whatWaitsForAClosedPanelGoesWithIt()
+    {
+        QByteArray state;
+        {
+            Bench bench;
+            bench.area.addTrace(bench.watch(bench.second, "Present Position"));
+            bench.area.addPanel();
+            bench.area.addTrace(bench.watch(bench.second, "Present Load"));
+            bench.area.addPanel();
+            bench.area.addTrace(bench.watch(bench.second, "Present Velocity"));
+            state = bench.area.saveState();
+        }
+        Bench bench;
+        bench.line.forget(bench.second.key());
+        bench.area.restoreState(state);
+        bench.area.closePanel(bench.area.panels().at(1));
+        Device &back = bench.line.heard({2, 1'000'000, 1060, 45, false, {}});
+        QVERIFY(bench.model(0).watches() == std::vector{bench.watch(back, "Present Position")});
+        QVERIFY(bench.model(1).watches() == std::vector{bench.watch(back, "Present Velocity")});
+    }
+
+    void newValuesAloneDontRepaintAPausedPlot()
+    {
+        Bench bench;
+        const Watch position = bench.watch(bench.first, "Present Position");
+        bench.area.addTrace(position);
+        bench.sample(position, 1s, 1024);
+        bench.action(QStringLiteral("Pause"))->trigger();
+        QCoreApplication::processEvents();
+        PaintCount paints(bench.chart());
+        bench.sample(position, 2s, 3072);
+        QTRY_COMPARE(bench.model().index(0).data(TraceModel::ValueRole).toString(), QStringLiteral("270.00"));
+        QCoreApplication::processEvents();
+        QCOMPARE(paints.count, 0);
+        bench.model().setVisible(0, false);
+        QCoreApplication::processEvents();
+        QCOMPARE(paints.count, 1);
     }
 
     void everythingHasATip()

@@ -3,13 +3,30 @@
 #include "ui/common/stopkey.h"
 
 #include <QDialog>
+#include <QDragEnterEvent>
 #include <QLineEdit>
 #include <QMenu>
+#include <QMimeData>
 #include <QShortcut>
 #include <QSignalSpy>
 #include <QTableWidget>
 
 using namespace dynascope;
+
+/// Takes all keys, as Qt's drag does (QBasicDrag); the offscreen platform has no drags.
+class KeyEater final : public QObject
+{
+public:
+    int escapes = 0;
+
+    bool eventFilter(QObject *, QEvent *event) override
+    {
+        if (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride)
+            return false;
+        escapes += event->type() == QEvent::KeyPress && static_cast<QKeyEvent *>(event)->key() == Qt::Key_Escape;
+        return true;
+    }
+};
 
 class TestStopKey : public QObject
 {
@@ -85,6 +102,22 @@ private slots:
         QTest::keyClick(window.windowHandle(), Qt::Key_Escape);
         QCOMPARE(pressed.count(), 1);
         QCOMPARE(taken.count(), 1);
+    }
+
+    void whileADragTakesTheKeys()
+    {
+        QWidget window;
+        window.show();
+        KeyEater drag;
+        qApp->installEventFilter(&drag);
+        const QMimeData mime;
+        QDragEnterEvent enters(QPoint(5, 5), Qt::CopyAction, &mime, Qt::LeftButton, Qt::NoModifier);
+        QCoreApplication::sendEvent(window.windowHandle(), &enters);
+        QCoreApplication::processEvents(); // the drag's own loop
+        QSignalSpy pressed(&m_key, &StopKey::pressed);
+        QTest::keyClick(window.windowHandle(), Qt::Key_Escape);
+        QCOMPARE(pressed.count(), 1);
+        QCOMPARE(drag.escapes, 1); // which ends it
     }
 
     void everyPressCounts()

@@ -51,6 +51,14 @@ QColor controlBorder(const QStyleOption &option)
     return option.state & QStyle::State_HasFocus ? colors(option.palette).accent : option.palette.color(QPalette::Mid);
 }
 
+/// An empty box or circle is nothing but its border: that has to be seen on any ground.
+QColor ringColor(const QStyleOption &option)
+{
+    const bool quiet = (option.state & QStyle::State_Enabled) && !(option.state & QStyle::State_HasFocus);
+    return quiet ? blend(option.palette.color(QPalette::Mid), option.palette.color(QPalette::Text), 0.4F)
+                 : controlBorder(option);
+}
+
 void drawComboBox(const QStyleOptionComboBox &option, QPainter *painter, const QStyle &style)
 {
     const bool enabled = option.state & QStyle::State_Enabled;
@@ -95,7 +103,7 @@ void drawCheckBox(const QStyleOption &option, QPainter *painter)
     const int side = qMin(option.rect.width(), option.rect.height());
     QRect box(0, 0, side, side);
     box.moveCenter(option.rect.center());
-    drawBox(painter, box, set ? mark : option.palette.color(QPalette::Base), set ? mark : controlBorder(option));
+    drawBox(painter, box, set ? mark : option.palette.color(QPalette::Base), set ? mark : ringColor(option));
     if (set) {
         const bool half = option.state & QStyle::State_NoChange;
         paintIcon(painter, QRectF(box).adjusted(1, 1, -1, -1), half ? QStringLiteral("minus") : QStringLiteral("check"),
@@ -113,7 +121,7 @@ void drawRadioButton(const QStyleOption &option, QPainter *painter)
     circle.moveCenter(QRectF(option.rect).center());
     painter->save();
     painter->setRenderHint(QPainter::Antialiasing);
-    painter->setPen(QPen(set ? mark : controlBorder(option), 1));
+    painter->setPen(QPen(set ? mark : ringColor(option), 1));
     painter->setBrush(set ? mark : option.palette.color(QPalette::Base));
     painter->drawEllipse(circle);
     if (set) {

@@ -121,6 +121,13 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
     case PE_PanelButtonCommand: drawPushButton(option, painter); return;
     case PE_PanelButtonTool: drawToolButton(option, painter); return;
     case PE_FrameLineEdit: drawBox(painter, option->rect, QColor(), controlBorder(*option)); return;
+    case PE_PanelMenu: // Fusion's frame is darker than the ground, which a dark scheme swallows
+        painter->save();
+        painter->setPen(option->palette.color(QPalette::Mid));
+        painter->setBrush(option->palette.color(QPalette::Base).lighter(108)); // as Fusion's entries
+        painter->drawRect(option->rect.adjusted(0, 0, -1, -1));
+        painter->restore();
+        return;
     case PE_Frame: {
         const auto *frame = qstyleoption_cast<const QStyleOptionFrame *>(option);
         if (!frame || frame->lineWidth <= 0)
@@ -163,6 +170,14 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption *option, 
     case CE_Splitter: {
         const ThemeColors &theme = colors(option->palette);
         painter->fillRect(option->rect, (option->state & State_MouseOver) ? theme.accent : theme.border);
+        return;
+    }
+    case CE_MenuItem: {
+        const auto *item = qstyleoption_cast<const QStyleOptionMenuItem *>(option);
+        if (!item || item->menuItemType != QStyleOptionMenuItem::Separator || !item->text.isEmpty())
+            break;
+        const QRect &rect = item->rect;
+        painter->fillRect(QRect(rect.left() + 8, rect.center().y(), rect.width() - 16, 1), colors(item->palette).border);
         return;
     }
     case CE_PushButtonLabel: {

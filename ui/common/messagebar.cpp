@@ -167,6 +167,14 @@ void MessageBar::clear()
     dismiss();
 }
 
+void MessageBar::retract(const QString &text)
+{
+    if (m_waiting && m_waiting->text == text)
+        m_waiting.reset();
+    if (m_current && m_current->text == text)
+        dismiss();
+}
+
 void MessageBar::changeEvent(QEvent *event)
 {
     if (event->type() == QEvent::PaletteChange && m_current) {

@@ -35,6 +35,7 @@ public:
     void post(MessageKind kind, const QString &text) { post(Message{kind, text, {}, {}}); }
     void dismiss(); ///< shows what waits, else hides
     void clear();   ///< also what waits
+    void retract(const QString &text); ///< what this message said is no longer so; nothing where it isn't here
     /// Off for a bar whose owner alone decides when it goes.
     void setDismissable(bool dismissable);
 

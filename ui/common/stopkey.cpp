@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/stopkey.h"
 
+#include <QCoreApplication>
 #include <QKeyEvent>
 
 namespace dynascope {
@@ -21,6 +22,9 @@ bool StopKey::eventFilter(QObject *watched, QEvent *event)
             emit pressed();
         }
     }
+    // A drag takes keys by a filter of its own, put before this one when it starts; the filter put last is asked first.
+    if (event->type() == QEvent::DragEnter)
+        QMetaObject::invokeMethod(this, [this] { qApp->installEventFilter(this); }, Qt::QueuedConnection);
     return QObject::eventFilter(watched, event);
 }
 

@@ -5,8 +5,8 @@
 
 namespace dynascope {
 
-/// Esc anywhere in the application: open editors, dialogs and menus included, where a shortcut doesn't fire. The key
-/// keeps its usual meaning. Install on the application.
+/// Esc anywhere in the application: open editors, dialogs, menus and drags included, where a shortcut doesn't fire. The
+/// key keeps its usual meaning. Install on the application.
 class StopKey : public QObject
 {
     Q_OBJECT

@@ -11,10 +11,11 @@ namespace dynascope {
 
 namespace {
 
-QString tr(const char *text)
+/// The context of what is translated here.
+class Texts
 {
-    return QCoreApplication::translate("Texts", text);
-}
+    Q_DECLARE_TR_FUNCTIONS(Texts)
+};
 
 /// Thousands set apart by a thin space, which doesn't depend on the locale.
 QString grouped(int number)
@@ -30,8 +31,8 @@ QString grouped(int number)
 QString baudText(int bitsPerSecond)
 {
     if (bitsPerSecond >= 1'000'000 && bitsPerSecond % 100'000 == 0)
-        return tr("%1 Mbps").arg(bitsPerSecond / 1e6, 0, 'g', 4);
-    return tr("%1 bps").arg(grouped(bitsPerSecond));
+        return Texts::tr("%1 Mbps").arg(bitsPerSecond / 1e6, 0, 'g', 4);
+    return Texts::tr("%1 bps").arg(grouped(bitsPerSecond));
 }
 
 QString agoText(LineTime at)
@@ -39,60 +40,60 @@ QString agoText(LineTime at)
     const LineTime now = std::chrono::steady_clock::now().time_since_epoch();
     const auto seconds = std::chrono::duration_cast<std::chrono::seconds>(now - at).count();
     if (seconds < 10)
-        return tr("just now");
+        return Texts::tr("just now");
     if (seconds < 60)
-        return tr("%1 s ago").arg(seconds / 10 * 10);
+        return Texts::tr("%1 s ago").arg(seconds / 10 * 10);
     if (seconds < 3600)
-        return tr("%1 min ago").arg(seconds / 60);
-    return tr("%1 h ago").arg(seconds / 3600);
+        return Texts::tr("%1 min ago").arg(seconds / 60);
+    return Texts::tr("%1 h ago").arg(seconds / 3600);
 }
 
 QString portText(const QString &name)
 {
-    return name == QStringLiteral("sim") ? tr("Simulated bus") : name;
+    return name == QStringLiteral("sim") ? Texts::tr("Simulated bus") : name;
 }
 
 QString lineStateText(const LineSession &line)
 {
     switch (line.state()) {
-    case BusThread::State::Opening: return tr("Opening…");
-    case BusThread::State::Open: return tr("Connected at %1").arg(baudText(line.baudRate()));
-    case BusThread::State::Lost: return tr("Connection lost");
+    case BusThread::State::Opening: return Texts::tr("Opening…");
+    case BusThread::State::Open: return Texts::tr("Connected at %1").arg(baudText(line.baudRate()));
+    case BusThread::State::Lost: return Texts::tr("Connection lost");
     case BusThread::State::Closed: break;
     }
-    return tr("Not connected");
+    return Texts::tr("Not connected");
 }
 
 QString deviceStateText(const Device &device)
 {
     const LineSession *line = device.line();
     if (line && line->state() != BusThread::State::Open)
-        return tr("No connection");
+        return Texts::tr("No connection");
     switch (device.state()) {
     case Device::State::Present: break;
     case Device::State::Parked:
-        return tr("Parked, heard %1").arg(agoText(device.lastHeard()));
-    case Device::State::Silent: return tr("Silent, heard %1").arg(agoText(device.lastHeard()));
-    case Device::State::Rebooting: return tr("Rebooting…");
+        return Texts::tr("Parked, heard %1").arg(agoText(device.lastHeard()));
+    case Device::State::Silent: return Texts::tr("Silent, heard %1").arg(agoText(device.lastHeard()));
+    case Device::State::Rebooting: return Texts::tr("Rebooting…");
     }
     if (!device.doubt().isEmpty())
         return device.doubt();
     if (!device.isKnownModel())
-        return tr("Model %1 is unknown").arg(device.modelNumber());
+        return Texts::tr("Model %1 is unknown").arg(device.modelNumber());
     const auto torque = device.raw(u"Torque Enable");
     if (!torque)
-        return tr("Present");
-    return *torque != 0 ? tr("Torque on") : tr("Torque off");
+        return Texts::tr("Present");
+    return *torque != 0 ? Texts::tr("Torque on") : Texts::tr("Torque off");
 }
 
 QString deviceStateHelp(const Device &device)
 {
     switch (device.state()) {
     case Device::State::Parked:
-        return tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
+        return Texts::tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
             .arg(baudText(device.baudRate()), agoText(device.lastHeard()));
     case Device::State::Silent:
-        return tr("It does not answer; last heard %1. Is it powered, and still at this ID and baud rate?")
+        return Texts::tr("It does not answer; last heard %1. Is it powered, and still at this ID and baud rate?")
             .arg(agoText(device.lastHeard()));
     case Device::State::Present:
     case Device::State::Rebooting: break;
@@ -109,7 +110,7 @@ QString alertText(const Device &device)
         if (raw && *raw != 0)
             return meaning(*field, *raw);
     }
-    return tr("Hardware error");
+    return Texts::tr("Hardware error");
 }
 
 } // namespace dynascope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/connection/connector.h"
 
-#include "core/session/scanner.h"
+#include "core/session/stopcontrol.h"
 #include "ui/common/texts.h"
 
 #include <QFileInfo>
@@ -39,8 +39,7 @@ Connector::Connector(const Workbench &workbench, QObject *parent)
     connect(&m_retryTimer, &QTimer::timeout, this, &Connector::tryAgain);
     connect(&workbench.session, &Session::lineAdded, this, &Connector::follow);
     connect(&workbench.session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
-        m_opened.remove(line);
-        m_lost.remove(line);
+        forget(line);
         QMetaObject::invokeMethod(this, &Connector::changed, Qt::QueuedConnection);
     });
     connect(&workbench.scanner, &Scanner::finished, this, &Connector::onScanned);
@@ -90,6 +89,10 @@ void Connector::scan(LineSession &line, const ScanRange &range)
 {
     if (line.state() != BusThread::State::Open || range.bauds.empty())
         return;
+    if (m_workbench.scanner.isRunning() && m_scanned != &line) {
+        m_waiting.push_back({&line, range});
+        return;
+    }
     m_scanned = &line;
     m_workbench.scanner.start(line, range);
 }
@@ -118,8 +121,12 @@ void Connector::onState(LineSession *line)
 
 void Connector::onOpen(LineSession *line)
 {
-    if (m_lost.remove(line))
+    if (const QString refused = m_refused.take(line->name()); !refused.isEmpty())
+        emit retracted(refused);
+    if (m_lost.contains(line)) {
+        emit retracted(m_lost.take(line));
         emit posted({MessageKind::Success, tr("%1 is back").arg(portText(line->name())), {}, {}});
+    }
     if (m_opened.contains(line))
         return;
     m_opened.insert(line);
@@ -132,11 +139,11 @@ void Connector::onLost(LineSession *line)
 {
     if (m_lost.contains(line))
         return;
-    m_lost.insert(line);
     m_retryTimer.start();
     const QString why = line->bus().error().text;
     const QString text = tr("%1 is gone%2. It is opened again when it comes back.")
                              .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
+    m_lost.insert(line, text);
     emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
                      if (where)
                          reconnect(*where);
@@ -162,28 +169,55 @@ void Connector::onRefused(LineSession *line)
         return;
     const QString port = line->name();
     const int baud = line->baudRate();
+    m_refused.insert(port, error.text);
     emit posted({MessageKind::Error, error.text, tr("Try again"), [this, port, baud] { connectTo(port, baud); }});
 }
 
 void Connector::onScanned(int found, const QString &trouble)
 {
-    const QPointer<LineSession> scanned = m_scanned;
+    reportScan(found, trouble);
     m_scanned.clear();
+    if (m_workbench.stop.isActive())
+        m_waiting.clear();
     emit changed();
-    if (!scanned || scanned->state() != BusThread::State::Open)
+    // Not from inside the scanner's signal: the others who listen are still to hear that it has ended.
+    QMetaObject::invokeMethod(this, &Connector::scanNext, Qt::QueuedConnection);
+}
+
+void Connector::scanNext()
+{
+    while (!m_waiting.empty() && !m_workbench.scanner.isRunning()) {
+        const Waiting next = std::move(m_waiting.front());
+        m_waiting.erase(m_waiting.begin());
+        if (next.line)
+            scan(*next.line, next.range);
+    }
+}
+
+void Connector::reportScan(int found, const QString &trouble)
+{
+    if (!m_scanned || m_scanned->state() != BusThread::State::Open)
         return;
     if (m_workbench.scanner.wasCancelled())
         return; // who did it knows
     if (!trouble.isEmpty()) {
         emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}});
     } else if (found == 0) {
+        const QString port = portText(m_scanned->name());
         emit posted({MessageKind::Warning,
-            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(portText(scanned->name())),
-            {}, {}});
+            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(port), {}, {}});
     } else {
         emit posted(
             {MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {}});
     }
+}
+
+void Connector::forget(LineSession *line)
+{
+    m_opened.remove(line);
+    std::erase_if(m_waiting, [line](const Waiting &waiting) { return waiting.line == line; });
+    if (m_lost.contains(line))
+        emit retracted(m_lost.take(line));
 }
 
 bool Connector::isThere(const QString &port) const
@@ -199,7 +233,7 @@ void Connector::tryAgain()
         m_retryTimer.stop();
         return;
     }
-    const QSet<LineSession *> waiting = m_lost;
+    const QList<LineSession *> waiting = m_lost.keys();
     for (LineSession *line : waiting) {
         const bool idle = line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed;
         if (idle && isThere(line->name()))

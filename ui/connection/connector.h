@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/scanner.h"
 #include "core/session/session.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
 
+#include <QMap>
 #include <QSet>
 
 namespace dynascope {
 
-struct ScanRange;
-
-/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its port is back.
+/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its port is back. One line
+/// is scanned at a time; others wait for their turn, until STOP.
 class Connector : public QObject
 {
     Q_OBJECT
@@ -38,6 +39,7 @@ public:
 signals:
     void changed(); ///< a line came, went, or is in another state
     void posted(const dynascope::Message &message);
+    void retracted(const QString &text); ///< what this message said is no longer so
 
 private:
     void follow(LineSession *line);
@@ -46,14 +48,23 @@ private:
     void onLost(LineSession *line);
     void onRefused(LineSession *line);
     void onScanned(int found, const QString &trouble);
+    void reportScan(int found, const QString &trouble);
+    void scanNext();
+    void forget(LineSession *line);
     void tryAgain();
     bool isThere(const QString &port) const;
     static void remember(const QString &port, int baudRate);
 
     Workbench m_workbench;
     QPointer<LineSession> m_scanned;
-    QSet<LineSession *> m_opened; ///< have been open at least once
-    QSet<LineSession *> m_lost;   ///< said to be gone, wait for their port
+    struct Waiting {
+        QPointer<LineSession> line;
+        ScanRange range;
+    };
+    std::vector<Waiting> m_waiting;       ///< to be scanned when it is their turn
+    QSet<LineSession *> m_opened;         ///< have been open at least once
+    QMap<LineSession *, QString> m_lost;  ///< wait for their port, with the words that said they are gone
+    QMap<QString, QString> m_refused;     ///< ports that couldn't be opened, with the words that said why
     QTimer m_retryTimer;
 };
 

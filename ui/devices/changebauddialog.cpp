@@ -24,12 +24,27 @@ ChangeBaudDialog::ChangeBaudDialog(Device &device, Commands &commands, QWidget *
         if (code.rate != device.baudRate())
             m_baud->addItem(baudText(code.rate), code.rate);
     }
-    const int working = device.line() ? m_baud->findData(device.line()->baudRate()) : -1;
-    m_baud->setCurrentIndex(working >= 0 ? working : qMax(0, m_baud->findData(57600)));
+    m_baud->setCurrentIndex(mostLikely(device));
     form()->addRow(tr("Present baud rate"), new QLabel(baudText(device.baudRate()), this));
     form()->addRow(tr("New baud rate"), m_baud);
+    beginWith(m_baud);
     connect(m_baud, &QComboBox::currentIndexChanged, this, [this] { check(); });
     ChangeBaudDialog::check();
+}
+
+/// To where the line works, else to what is new from the factory, else anywhere: but not to where its ID is taken.
+int ChangeBaudDialog::mostLikely(const Device &device) const
+{
+    const LineSession *line = device.line();
+    std::vector<int> rates{line ? line->baudRate() : 0, 57600, 1000000};
+    for (int i = 0; i < m_baud->count(); ++i)
+        rates.push_back(m_baud->itemData(i).toInt());
+    for (const int rate : rates) {
+        const int index = m_baud->findData(rate);
+        if (index >= 0 && !(line && line->deviceAt(device.id(), rate)))
+            return index;
+    }
+    return 0;
 }
 
 bool ChangeBaudDialog::isAlone() const

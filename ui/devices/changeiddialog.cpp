@@ -56,6 +56,7 @@ ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *pare
     auto *list = new QLabel(taken.isEmpty() ? tr("none") : taken.join(QStringLiteral(", ")), this);
     list->setWordWrap(true);
     form()->addRow(tr("Taken at %1").arg(baudText(device.baudRate())), list);
+    beginWith(m_id);
     connect(m_id, &QSpinBox::valueChanged, this, [this] { check(); });
     ChangeIdDialog::check();
 }

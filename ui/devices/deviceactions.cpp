@@ -230,6 +230,7 @@ void DeviceActions::rename()
     dialog->setObjectName(QStringLiteral("nicknameDialog"));
     dialog->setWindowTitle(tr("Nickname"));
     dialog->setLabelText(tr("Nickname of %1, ID %2:").arg(devices.front()->model()).arg(devices.front()->id()));
+    dialog->setMinimumWidth(360);
     dialog->setTextValue(devices.front()->nickname());
     connect(dialog, &QInputDialog::textValueSelected, this,
         [device = QPointer<Device>(devices.front())](const QString &name) {

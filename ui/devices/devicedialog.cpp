@@ -45,8 +45,8 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     note->setSpacing(8);
     note->addWidget(m_noteIcon, 0, Qt::AlignTop);
     note->addWidget(m_note, 1);
-    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    m_accept = buttons->addButton(accept, QDialogButtonBox::AcceptRole);
+    m_buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
+    m_accept = m_buttons->addButton(accept, QDialogButtonBox::AcceptRole);
     m_accept->setObjectName(QStringLiteral("acceptButton"));
     m_accept->setDefault(true);
 
@@ -58,10 +58,12 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     layout->addWidget(m_torqueOff);
     layout->addLayout(note);
     layout->addStretch(1);
-    layout->addWidget(buttons);
+    layout->addWidget(m_buttons);
 
-    connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
-    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(m_buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    connect(m_buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    if (device.line())
+        connect(device.line(), &LineSession::stateChanged, this, [this] { check(); });
     connect(m_torqueOff, &QCheckBox::toggled, this, [this] { check(); });
     connect(&device, &QObject::destroyed, this, &QDialog::reject);
     connect(&device, &Device::attributesChanged, this, [this] { check(); });
@@ -73,6 +75,17 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
         check();
     });
     showTorque();
+}
+
+void DeviceDialog::beginWith(QWidget *widget)
+{
+    setTabOrder(widget, m_torqueOff);
+    QWidget *last = m_torqueOff;
+    for (QAbstractButton *button : m_buttons->buttons()) {
+        setTabOrder(last, button);
+        last = button;
+    }
+    widget->setFocus();
 }
 
 void DeviceDialog::showTorque()
@@ -98,9 +111,11 @@ bool DeviceDialog::torqueAllows() const
 
 void DeviceDialog::setNote(MessageKind kind, const QString &text)
 {
-    m_noteKind = kind;
-    m_note->setText(text);
-    m_accept->setEnabled(kind != MessageKind::Error);
+    const LineSession *line = m_device ? m_device->line() : nullptr;
+    const bool reachable = !line || line->state() == BusThread::State::Open;
+    m_noteKind = reachable ? kind : MessageKind::Error;
+    m_note->setText(reachable ? text : tr("%1 isn't open now.").arg(portText(line->name())));
+    m_accept->setEnabled(m_noteKind != MessageKind::Error);
     drawNote();
 }
 

@@ -8,6 +8,7 @@
 #include <QPointer>
 
 class QCheckBox;
+class QDialogButtonBox;
 class QFormLayout;
 class QLabel;
 class QPushButton;
@@ -27,7 +28,8 @@ protected:
     Device *device() const { return m_device; }
     QFormLayout *form() const { return m_form; }
     bool turnsTorqueOff() const;
-    void leaveTorque(); ///< what it does needs no torque off first
+    void beginWith(QWidget *widget); ///< has the focus first; the rest follows it at the Tab key
+    void leaveTorque();              ///< what it does needs no torque off first
 
     /// Why it can't be done, or what it will mean. An error disables the button.
     void setNote(MessageKind kind, const QString &text);
@@ -46,6 +48,7 @@ private:
     QLabel *m_noteIcon;
     QLabel *m_note;
     QCheckBox *m_torqueOff;
+    QDialogButtonBox *m_buttons;
     QPushButton *m_accept;
     MessageKind m_noteKind = MessageKind::Info;
     bool m_leavesTorque = false;

@@ -2,6 +2,7 @@
 #include "ui/devices/devicetreemodel.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 
 // What the rows say is in devicetreetexts.cpp.
@@ -12,6 +13,12 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto AgeInterval = 10s;
+
+std::array<int, 3> shownFields(const Device &device)
+{
+    const ControlTable &table = device.table();
+    return {table.indexOf(u"Torque Enable"), table.indexOf(u"Hardware Error Status"), table.indexOf(u"LED")};
+}
 
 bool byId(const Device *one, const Device *other)
 {
@@ -75,8 +82,11 @@ void DeviceTreeModel::addDevice(Device *device)
     beginInsertRows(indexOf(baud), row, row);
     baud->devices.insert(at, device);
     endInsertRows();
-    connect(device, &Device::fieldsChanged, this,
-            [this, device](int first, int last) { onFields(device, first, last); });
+    // A thousand times a second for what is plotted: only what the row shows counts.
+    connect(device, &Device::fieldsChanged, this, [this, device, shown = shownFields(*device)](int first, int last) {
+        if (std::ranges::any_of(shown, [first, last](int field) { return field >= first && field <= last; }))
+            touch(indexOf(device));
+    });
 }
 
 void DeviceTreeModel::removeDevice(Device *device)
@@ -127,17 +137,6 @@ void DeviceTreeModel::dropIfEmpty(BaudNode *baud)
     beginRemoveRows(indexOf(line->line), row, row);
     line->bauds.erase(line->bauds.begin() + row);
     endRemoveRows();
-}
-
-void DeviceTreeModel::onFields(Device *device, int first, int last)
-{
-    // A thousand times a second for what is plotted: only what the row shows counts.
-    for (const QStringView name :
-        {QStringView(u"Torque Enable"), QStringView(u"Hardware Error Status"), QStringView(u"LED")}) {
-        const int index = device->table().indexOf(name);
-        if (index >= first && index <= last)
-            return touch(indexOf(device));
-    }
 }
 
 void DeviceTreeModel::touch(const QModelIndex &index)

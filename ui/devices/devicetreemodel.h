@@ -60,7 +60,6 @@ private:
     void removeDevice(Device *device);
     void placeDevice(Device *device);
     void dropIfEmpty(BaudNode *baud);
-    void onFields(Device *device, int first, int last);
     void touch(const QModelIndex &index);
     void touchLine(LineSession *line);
 

@@ -22,6 +22,8 @@ FactoryResetDialog::FactoryResetDialog(Device &device, Commands &commands, QWidg
     addOption(ResetOption::AllButId, QStringLiteral("resetKeepId"), tr("Keep the ID only"));
     addOption(ResetOption::All, QStringLiteral("resetAll"), tr("Everything"));
     m_options->buttons().first()->setChecked(true);
+    beginWith(m_options->buttons().last());
+    m_options->buttons().first()->setFocus();
     connect(m_options, &QButtonGroup::idToggled, this, [this] { check(); });
     FactoryResetDialog::check();
 }

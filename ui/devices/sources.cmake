@@ -8,4 +8,5 @@ target_sources(dynascope_ui PRIVATE
     devices/devicetreemodel.cpp devices/devicetreemodel.h
     devices/devicetreetexts.cpp
     devices/factoryresetdialog.cpp devices/factoryresetdialog.h
+    devices/nicknames.cpp devices/nicknames.h
 )

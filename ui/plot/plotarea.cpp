@@ -73,6 +73,11 @@ void PlotArea::connectBar()
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
 }
 
+std::vector<QAction *> PlotArea::saveActions() const
+{
+    return m_bar->saveActions();
+}
+
 PlotPanel *PlotArea::addPanel()
 {
     auto *panel = new PlotPanel(m_session, m_monitor, m_window, m_splitter);
@@ -116,7 +121,11 @@ void PlotArea::closePanel(PlotPanel *panel)
     if (m_panels.size() < 2)
         return;
     removeFrom(panel, panel->model().watches());
-    std::erase(m_panels, panel);
+    // What waits is kept per panel: it goes with its own.
+    const auto at = std::ranges::find(m_panels, panel);
+    if (const auto index = at - m_panels.begin(); index < std::ssize(m_waiting))
+        m_waiting.erase(m_waiting.begin() + index);
+    m_panels.erase(at);
     if (m_present == panel)
         m_present = m_panels.back();
     panel->hide();

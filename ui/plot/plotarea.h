@@ -9,6 +9,7 @@
 #include <QTimer>
 #include <QWidget>
 
+class QAction;
 class QSplitter;
 
 namespace dynascope {
@@ -37,6 +38,8 @@ public:
     const TimeWindow &timeWindow() const { return m_window; }
     void setLive(bool live);
     void setAutoscale(bool on);
+
+    std::vector<QAction *> saveActions() const; ///< CSV and picture, for a menu
 
     QByteArray saveState() const;
     /// Traces of devices that aren't there yet come back when these are found.

@@ -67,14 +67,21 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
     addSeparator();
     QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
     connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
-    QAction *csv = add(QStringLiteral("csv"), tr("Save as CSV..."), tr("Save the samples in sight as a CSV file"));
+    QAction *csv =
+        add(QStringLiteral("csv"), tr("Save plots as CSV…"), tr("Save the samples in sight as a CSV file (Ctrl+S)"));
+    csv->setObjectName(QStringLiteral("saveCsvAction"));
+    csv->setShortcut(QKeySequence(QStringLiteral("Ctrl+S")));
     connect(csv, &QAction::triggered, this, &PlotBar::csvRequested);
-    QAction *picture = add(QStringLiteral("camera"), tr("Save as picture..."), tr("Save the plots as a PNG picture"));
+    QAction *picture = add(QStringLiteral("camera"), tr("Save plots as a picture…"),
+        tr("Save the plots as a PNG picture (Ctrl+Shift+S)"));
+    picture->setObjectName(QStringLiteral("savePictureAction"));
+    picture->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+S")));
     connect(picture, &QAction::triggered, this, &PlotBar::pictureRequested);
     addSeparator();
     QAction *panel =
         add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
+    m_save = {csv, picture};
     m_needTraces = {m_pause, clear, csv, picture};
     setHasTraces(false);
 }

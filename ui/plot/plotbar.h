@@ -4,6 +4,8 @@
 #include <QSpinBox>
 #include <QToolBar>
 
+#include <vector>
+
 namespace dynascope {
 
 /// Whole seconds; the arrows go to the next round number.
@@ -31,6 +33,7 @@ public:
     void setSpan(int seconds);
     void stepSpan(int steps) { m_span->stepBy(steps); }
     void setHasTraces(bool has);
+    const std::vector<QAction *> &saveActions() const { return m_save; }
 
 signals:
     void liveChanged(bool live);
@@ -48,6 +51,7 @@ private:
     SpanBox *m_span;
     QAction *m_pause;
     QAction *m_autoscale;
+    std::vector<QAction *> m_save;
     QList<QAction *> m_needTraces;
 };
 

@@ -14,6 +14,12 @@ namespace dynascope {
 
 namespace {
 
+/// The context of what is translated here.
+class PlotExport
+{
+    Q_DECLARE_TR_FUNCTIONS(PlotExport)
+};
+
 /// A trace's samples that are still to be written.
 struct Reader {
     const TraceData *trace;
@@ -43,17 +49,18 @@ const Reader *earliest(const std::vector<Reader> &readers)
     return first;
 }
 
-Error notWritten(const QString &path, const QString &reason)
+tl::unexpected<Error> notWritten(const QFileDevice &file)
 {
-    return {ErrorKind::BadFile,
-        QCoreApplication::translate("PlotExport", "%1 could not be written: %2")
-            .arg(QDir::toNativeSeparators(path), reason),
-        0};
+    const QString path = QDir::toNativeSeparators(file.fileName());
+    const bool hasReason = file.error() != QFileDevice::NoError && !file.errorString().isEmpty();
+    return failure(ErrorKind::BadFile,
+        hasReason ? PlotExport::tr("%1 could not be written: %2").arg(path, file.errorString())
+                  : PlotExport::tr("%1 could not be written").arg(path));
 }
 
 } // namespace
 
-void writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, LineTime end)
+bool writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, LineTime end)
 {
     std::vector<Reader> readers;
     QByteArray line = "Time (s)";
@@ -66,7 +73,8 @@ void writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, L
         readers.push_back(
             {&trace, hasAny ? trace.history->indexAt(from) : 0, hasAny ? trace.history->indexAt(end) : 0});
     }
-    to.write(line + '\n');
+    if (to.write(line + '\n') < 0)
+        return false;
     const Reader *first = earliest(readers);
     const LineTime zero = first ? first->time() : LineTime{};
     while (first) {
@@ -81,19 +89,19 @@ void writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, L
             ++reader.next; // a second one at the same moment gets a line of its own
         }
         if (to.write(line + '\n') < 0)
-            return;
+            return false;
         first = earliest(readers);
     }
+    return true;
 }
 
 Result<void> saveCsv(const QString &path, std::span<const TraceData> traces, LineTime from, LineTime end)
 {
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly))
-        return tl::unexpected(notWritten(path, file.errorString()));
-    writeCsv(file, traces, from, end);
-    if (!file.commit())
-        return tl::unexpected(notWritten(path, file.errorString()));
+        return notWritten(file);
+    if (!writeCsv(file, traces, from, end) || !file.commit())
+        return notWritten(file);
     return {};
 }
 
@@ -101,9 +109,9 @@ Result<void> savePicture(const QString &path, const QPixmap &picture)
 {
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly))
-        return tl::unexpected(notWritten(path, file.errorString()));
+        return notWritten(file);
     if (!picture.save(&file, "PNG") || !file.commit())
-        return tl::unexpected(notWritten(path, file.errorString()));
+        return notWritten(file);
     return {};
 }
 

@@ -47,7 +47,11 @@ PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow 
     connect(m_list, &TraceList::currentRowChanged, m_chart, &PlotChart::setEmphasized);
     for (const auto signal : {&TraceModel::rowsInserted, &TraceModel::rowsRemoved})
         connect(m_model, signal, this, &PlotPanel::updateList);
-    connect(m_model, &TraceModel::dataChanged, this, &PlotPanel::refreshTraces);
+    connect(m_model, &TraceModel::dataChanged, this,
+        [this](const QModelIndex &, const QModelIndex &, const QList<int> &roles) {
+            if (roles != QList<int>{TraceModel::ValueRole}) // the list's numbers; the chart has them from the history
+                refreshTraces();
+        });
     m_chart->installEventFilter(this);
     m_list->installEventFilter(this);
     m_list->viewport()->installEventFilter(this);

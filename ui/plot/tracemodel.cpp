@@ -147,7 +147,10 @@ void TraceModel::refreshValues()
     int last = -1;
     for (int row = 0; row < rowCount(); ++row) {
         Trace &trace = m_traces[static_cast<std::size_t>(row)];
+        const Trace before = trace;
         describe(trace); // a register may have changed what this one measures
+        if (trace.scale != before.scale || trace.offset != before.offset || trace.unit != before.unit)
+            emit dataChanged(index(row), index(row));
         const Device *device = m_session.device(trace.watch.device);
         const History *history = m_monitor.history(trace.watch);
         QString value;
@@ -160,7 +163,7 @@ void TraceModel::refreshValues()
         last = row;
     }
     if (first >= 0)
-        emit dataChanged(index(first), index(last), {ValueRole, UnitRole});
+        emit dataChanged(index(first), index(last), {ValueRole});
 }
 
 int TraceModel::rowCount(const QModelIndex &parent) const

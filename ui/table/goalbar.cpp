@@ -74,8 +74,14 @@ void GoalBar::setDevices(const std::vector<Device *> &devices, const QString &wh
     m_fields.clear();
     m_first->setTarget({}, -1);
     m_second->setTarget({}, -1);
-    if (!devices.empty())
-        connect(devices.front(), &Device::fieldsChanged, this, &GoalBar::choose);
+    if (!devices.empty()) {
+        // A thousand times a second for what is plotted: only the mode counts.
+        connect(devices.front(), &Device::fieldsChanged, this,
+            [this, mode = devices.front()->table().indexOf(u"Operating Mode")](int first, int last) {
+                if (mode >= first && mode <= last)
+                    choose();
+            });
+    }
     choose();
 }
 

@@ -15,6 +15,7 @@ namespace dynascope {
 namespace {
 
 constexpr int TextHeight = 64;
+constexpr int TightHeight = 34;
 
 QString areaText(Area area)
 {
@@ -123,6 +124,11 @@ void HelpPanel::setFolded(bool folded)
     m_area->setVisible(!folded);
     m_fold->setIcon(icon(folded ? QStringLiteral("chevron-up") : QStringLiteral("chevron-down"), IconTint::Dimmed));
     m_fold->setToolTip(folded ? tr("Show what the register is for") : tr("Fold this to one line"));
+}
+
+void HelpPanel::setTight(bool tight)
+{
+    m_area->setFixedHeight(tight ? TightHeight : TextHeight);
 }
 
 void HelpPanel::showCell(const QModelIndex &cell)

@@ -24,6 +24,7 @@ public:
     void setAngleUnit(AngleUnit unit) { m_angle = unit; }
     bool isFolded() const { return m_folded; }
     void setFolded(bool folded);
+    void setTight(bool tight); ///< where there is little height: two lines of text, the rest is scrolled to
 
 private:
     AngleUnit m_angle = AngleUnit::Degrees;

@@ -30,6 +30,7 @@ namespace dynascope {
 namespace {
 
 constexpr quint32 StateVersion = 1;
+constexpr int LittleHeight = 460; ///< below this the rows need the room more than the help
 
 /// A line between parts, in place of frames.
 QFrame *makeRule(QWidget *parent)
@@ -323,6 +324,12 @@ void TablePanel::showEvent(QShowEvent *event)
 {
     QWidget::showEvent(event);
     m_model->setLive(true);
+}
+
+void TablePanel::resizeEvent(QResizeEvent *event)
+{
+    QWidget::resizeEvent(event);
+    m_help->setTight(height() < LittleHeight);
 }
 
 void TablePanel::hideEvent(QHideEvent *event)

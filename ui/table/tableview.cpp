@@ -15,15 +15,15 @@ namespace {
 int defaultWidth(ColumnKind kind)
 {
     switch (kind) {
-    case ColumnKind::Name: return 184;
-    case ColumnKind::Plot: return 40;
-    case ColumnKind::Address: return 74;
-    case ColumnKind::Value: return 80;
+    case ColumnKind::Name: return 190;
+    case ColumnKind::Plot: return 38;
+    case ColumnKind::Address: return 68;
+    case ColumnKind::Value: return 70;
     case ColumnKind::Physical: return 164;
     case ColumnKind::Device: return 156;
-    case ColumnKind::Default: return 64;
-    case ColumnKind::Range: return 126;
-    case ColumnKind::Access: return 56;
+    case ColumnKind::Default: return 66;
+    case ColumnKind::Range: return 158;
+    case ColumnKind::Access: return 58;
     }
     return 80;
 }

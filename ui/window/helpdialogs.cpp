@@ -18,10 +18,11 @@ namespace dynascope {
 
 namespace {
 
-QString tr(const char *text)
+/// The context of what is translated here.
+class Help
 {
-    return QCoreApplication::translate("Help", text);
-}
+    Q_DECLARE_TR_FUNCTIONS(Help)
+};
 
 QString plainText(const QAction &action)
 {
@@ -38,14 +39,14 @@ void showShortcuts(QMainWindow &window)
     auto *dialog = new QDialog(&window);
     dialog->setObjectName(QStringLiteral("shortcutsDialog"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("Keyboard shortcuts"));
+    dialog->setWindowTitle(Help::tr("Keyboard shortcuts"));
     auto *list = new QTreeWidget(dialog);
     list->setColumnCount(2);
-    list->setHeaderLabels({tr("Action"), tr("Keys")});
+    list->setHeaderLabels({Help::tr("Action"), Help::tr("Keys")});
     list->setRootIsDecorated(false);
     list->setAlternatingRowColors(true);
     list->setSelectionMode(QAbstractItemView::NoSelection);
-    list->setAccessibleName(tr("Keyboard shortcuts"));
+    list->setAccessibleName(Help::tr("Keyboard shortcuts"));
 
     std::map<QString, QString> keys; // by name, each once
     for (const QAction *action : window.findChildren<QAction *>()) {
@@ -56,7 +57,7 @@ void showShortcuts(QMainWindow &window)
         auto *item = new QTreeWidgetItem(list, {text, key});
         item->setSizeHint(0, QSize(0, list->fontMetrics().height() + 8));
     };
-    addRow(tr("STOP: torque off everywhere, at once"), tr("Esc, anywhere"));
+    addRow(Help::tr("STOP: torque off everywhere, at once"), Help::tr("Esc, anywhere"));
     for (const auto &[text, key] : keys)
         addRow(text, key);
     list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
@@ -78,13 +79,13 @@ void showAbout(QMainWindow &window)
     auto *box = new QMessageBox(&window);
     box->setObjectName(QStringLiteral("aboutBox"));
     box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setWindowTitle(tr("About Dynascope"));
+    box->setWindowTitle(Help::tr("About Dynascope"));
     box->setIconPixmap(applicationIcon().pixmap(QSize(64, 64), window.devicePixelRatioF()));
     box->setTextFormat(Qt::PlainText);
     const QString version = QCoreApplication::applicationVersion();
-    box->setText(version.isEmpty() ? tr("Dynascope") : tr("Dynascope %1").arg(version));
+    box->setText(version.isEmpty() ? Help::tr("Dynascope") : Help::tr("Dynascope %1").arg(version));
     box->setInformativeText(
-        tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
+        Help::tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
            "Free software under the GNU General Public License, version 3 or later. It comes without any "
            "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
     box->open();

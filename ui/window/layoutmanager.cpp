@@ -7,13 +7,17 @@
 #include <QSettings>
 #include <QSplitter>
 
+#include <algorithm>
+
 namespace dynascope {
 
 namespace {
 
-constexpr QSize DefaultSize(1360, 860);
+constexpr QSize DefaultSize(1440, 900);
 constexpr int WideEnough = 1200; ///< from here on table and plots fit beside each other
-constexpr int DevicesWidth = 264;
+constexpr int DevicesWidth = 248;
+constexpr int TableWidth = 826; ///< shows every column of one device
+constexpr int PlotWidth = 364;  ///< what the table leaves to the plots
 
 const QString GeometryKey = QStringLiteral("window/geometry");
 const QString OuterKey = QStringLiteral("window/outer");
@@ -38,6 +42,8 @@ LayoutManager::LayoutManager(QMainWindow &window, QSplitter &outer, QSplitter &i
     m_inner.setStretchFactor(0, 1);
     m_inner.setStretchFactor(1, 1);
     window.installEventFilter(this);
+    inner.installEventFilter(this);
+    connect(&inner, &QSplitter::splitterMoved, this, &LayoutManager::storeInner);
 }
 
 PlotPlace LayoutManager::fitting() const
@@ -47,10 +53,10 @@ PlotPlace LayoutManager::fitting() const
 
 bool LayoutManager::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == &m_window && event->type() == QEvent::Resize && !m_chosen && fitting() != m_place) {
-        storeInner();
+    if (event->type() == QEvent::Resize && watched == &m_window && !m_chosen && fitting() != m_place)
         apply(fitting());
-    }
+    if (event->type() == QEvent::Resize && watched == &m_inner)
+        arrange();
     return QObject::eventFilter(watched, event);
 }
 
@@ -59,24 +65,29 @@ void LayoutManager::setPlotPlace(PlotPlace place)
     m_chosen = true;
     if (place == m_place)
         return;
-    storeInner();
     apply(place);
 }
 
 void LayoutManager::apply(PlotPlace place)
 {
     m_place = place;
+    m_inner.restoreState(place == PlotPlace::Right ? m_right : m_below);
     m_inner.setOrientation(place == PlotPlace::Right ? Qt::Horizontal : Qt::Vertical);
-    const QByteArray &state = place == PlotPlace::Right ? m_right : m_below;
-    if (state.isEmpty() || !m_inner.restoreState(state)) {
-        m_inner.setOrientation(place == PlotPlace::Right ? Qt::Horizontal : Qt::Vertical);
-        const int whole = place == PlotPlace::Right ? m_inner.width() : m_inner.height();
-        const int table = whole * (place == PlotPlace::Right ? 55 : 60) / 100;
-        m_inner.setSizes({table, whole - table});
-    }
     m_inner.setHandleWidth(1);
     m_inner.setChildrenCollapsible(false);
+    arrange();
     emit plotPlaceChanged();
+}
+
+/// Until a person moves the handle the table has what its columns need, where that leaves room for the plots.
+void LayoutManager::arrange()
+{
+    if (!(m_place == PlotPlace::Right ? m_right : m_below).isEmpty())
+        return;
+    const int whole = m_place == PlotPlace::Right ? m_inner.width() : m_inner.height();
+    const int table = m_place == PlotPlace::Right ? std::max(whole / 2, std::min(TableWidth, whole - PlotWidth))
+                                                  : whole * 65 / 100;
+    m_inner.setSizes({table, whole - table});
 }
 
 void LayoutManager::storeInner()
@@ -113,8 +124,8 @@ void LayoutManager::save() const
     QSettings settings;
     settings.setValue(GeometryKey, m_window.saveGeometry());
     settings.setValue(OuterKey, m_outer.saveState());
-    settings.setValue(RightKey, m_place == PlotPlace::Right ? m_inner.saveState() : m_right);
-    settings.setValue(BelowKey, m_place == PlotPlace::Below ? m_inner.saveState() : m_below);
+    settings.setValue(RightKey, m_right);
+    settings.setValue(BelowKey, m_below);
     settings.setValue(PlaceKey, !m_chosen ? QString() : m_place == PlotPlace::Right ? RightName : BelowName);
 }
 

@@ -32,6 +32,7 @@ signals:
 
 private:
     void apply(PlotPlace place);
+    void arrange();
     void storeInner();
     void setDefaultSizes();
     PlotPlace fitting() const;
@@ -41,7 +42,7 @@ private:
     QSplitter &m_inner;
     PlotPlace m_place = PlotPlace::Right;
     bool m_chosen = false;
-    QByteArray m_right, m_below; ///< the inner splitter's state at either place
+    QByteArray m_right, m_below; ///< the inner splitter as a person left it at either place; empty: as it fits
 };
 
 } // namespace dynascope

@@ -14,13 +14,13 @@
 
 namespace dynascope {
 
-Menus::Menus(QMainWindow &window, const std::vector<QAction *> &deviceActions, LayoutManager &layout)
+Menus::Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout)
     : QObject(&window)
     , m_window(window)
 {
-    makeFileMenu();
+    makeFileMenu(offered.save);
     makeViewMenu(layout);
-    makeDeviceMenu(deviceActions);
+    makeDeviceMenu(offered.device);
     makeDemoMenu();
     makeHelpMenu();
     setConnected(false, false, false);
@@ -37,7 +37,7 @@ QAction *Menus::add(
     return action;
 }
 
-void Menus::makeFileMenu()
+void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
 {
     QMenu *menu = m_window.menuBar()->addMenu(tr("&File"));
     QAction *choose = add(menu, QStringLiteral("choosePortAction"), tr("Choose &port…"), QStringLiteral("Ctrl+L"),
@@ -54,6 +54,9 @@ void Menus::makeFileMenu()
     m_scanOptions =
         add(menu, QStringLiteral("scanOptionsAction"), tr("Scan &options…"), QStringLiteral("Ctrl+Shift+R"));
     connect(m_scanOptions, &QAction::triggered, this, &Menus::scanOptionsRequested);
+    menu->addSeparator();
+    for (QAction *action : saveActions)
+        menu->addAction(action);
     menu->addSeparator();
     QAction *quit = add(menu, QStringLiteral("quitAction"), tr("&Quit"), QStringLiteral("Ctrl+Q"));
     quit->setMenuRole(QAction::QuitRole);

@@ -18,7 +18,13 @@ class Menus : public QObject
     Q_OBJECT
 
 public:
-    Menus(QMainWindow &window, const std::vector<QAction *> &deviceActions, LayoutManager &layout);
+    /// What others own and the menus only offer; nullptr stands for a separator.
+    struct Offered {
+        std::vector<QAction *> device;
+        std::vector<QAction *> save;
+    };
+
+    Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout);
 
     void setConnected(bool connected, bool canScan, bool simulated);
     void setScheme(ColorScheme scheme); ///< which one is ticked
@@ -37,7 +43,7 @@ signals:
 private:
     QAction *add(
         QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
-    void makeFileMenu();
+    void makeFileMenu(const std::vector<QAction *> &saveActions);
     void makeViewMenu(LayoutManager &layout);
     void makeDeviceMenu(const std::vector<QAction *> &actions);
     void makeDemoMenu();

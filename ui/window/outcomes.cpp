@@ -32,22 +32,10 @@ Outcomes::Outcomes(const Workbench &workbench, MessageBar &messages, MessageBar 
     onStop();
 }
 
-bool Outcomes::standsAtCell(const Device &device, const Error &error) const
+void Outcomes::onFailed(Device *device, const Error &error, int field)
 {
-    if (!m_isShown(device))
-        return false;
-    const auto count = static_cast<int>(device.table().fields().size());
-    for (int i = 0; i < count; ++i) {
-        const FieldValue &value = device.value(i);
-        if (value.state == FieldState::Failed && value.error == error.text)
-            return true;
-    }
-    return false;
-}
-
-void Outcomes::onFailed(Device *device, const Error &error)
-{
-    if (error.kind == ErrorKind::Cancelled || (device && standsAtCell(*device, error)))
+    const bool standsAtCell = device && field >= 0 && m_isShown(*device);
+    if (error.kind == ErrorKind::Cancelled || standsAtCell)
         return;
     if (error.kind == ErrorKind::PortLost)
         return; // the line says so itself, once

@@ -24,9 +24,8 @@ public:
     Outcomes(const Workbench &workbench, MessageBar &messages, MessageBar &stopBar, IsShown isShown);
 
 private:
-    void onFailed(Device *device, const Error &error);
+    void onFailed(Device *device, const Error &error, int field);
     void onStop();
-    bool standsAtCell(const Device &device, const Error &error) const;
 
     Workbench m_workbench;
     MessageBar &m_messages;

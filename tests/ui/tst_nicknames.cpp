@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/uitest.h"
+#include "tests/support/workbenchfixture.h"
+#include "ui/devices/nicknames.h"
+
+#include <QSettings>
+
+using namespace dynascope;
+
+class TestNicknames : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init() { QSettings().clear(); }
+
+    void areThereAgainAtTheNextStart()
+    {
+        nameOne(QStringLiteral("/dev/ttyUSB0"), 4, QStringLiteral("shoulder"));
+        QCOMPARE(nameOf(QStringLiteral("/dev/ttyUSB0"), 4), QStringLiteral("shoulder"));
+        QCOMPARE(nameOf(QStringLiteral("/dev/ttyUSB0"), 5), QString());
+        QCOMPARE(nameOf(QStringLiteral("sim"), 4), QString()); // another bus
+        nameOne(QStringLiteral("/dev/ttyUSB0"), 4, QString());
+        QCOMPARE(nameOf(QStringLiteral("/dev/ttyUSB0"), 4), QString());
+    }
+
+    void followTheirDeviceToAnotherId()
+    {
+        {
+            Bench bench;
+            Device &device = bench.heard(QStringLiteral("sim"), 1);
+            device.setNickname(QStringLiteral("gripper"));
+            device.line()->moveDevice(device, found(9));
+        }
+        QCOMPARE(nameOf(QStringLiteral("sim"), 9), QStringLiteral("gripper"));
+        QCOMPARE(nameOf(QStringLiteral("sim"), 1), QString()); // the next new servo is no gripper
+    }
+
+private:
+    static Found found(int id) { return {static_cast<std::uint8_t>(id), 1'000'000, 1020, 45, false, {}}; }
+
+    /// One run of the program.
+    struct Bench {
+        test::WorkbenchFixture fixture;
+        Nicknames nicknames{fixture.workbench()};
+
+        Device &heard(const QString &port, int id) { return fixture.session.open(port, 1'000'000).heard(found(id)); }
+    };
+
+    static void nameOne(const QString &port, int id, const QString &name)
+    {
+        Bench bench;
+        bench.heard(port, id).setNickname(name);
+    }
+    static QString nameOf(const QString &port, int id)
+    {
+        Bench bench;
+        return bench.heard(port, id).nickname();
+    }
+};
+
+DYNASCOPE_UI_TEST(TestNicknames)
+#include "tst_nicknames.moc"

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/session/session.h"
+#include "ui/common/workbench.h"
+
+#include <QHash>
+#include <QObject>
+
+namespace dynascope {
+
+/// Nicknames outlast the program: kept in the settings by where a device was and what it is. They follow it when its ID
+/// or baud rate is changed here.
+class Nicknames : public QObject
+{
+    Q_OBJECT
+
+public:
+    explicit Nicknames(const Workbench &workbench, QObject *parent = nullptr);
+
+private:
+    void recall(Device *device);
+    void keep(const Device &device);
+    QString keyOf(const Device &device);
+
+    Workbench m_workbench;
+    QHash<QString, QString> m_adapters; ///< port → its serial number, else its name
+    QHash<DeviceKey, QString> m_keys;   ///< where each one's name stands now
+};
+
+} // namespace dynascope
