@@ -52,12 +52,14 @@ Result<std::size_t> scanAt(const Work &work, int baud)
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
     // Printed when the rate is done: what makes an answer doubtful comes after it.
-    const auto found = scanBaud(work.bus, work.options.ids.first, work.options.ids.last, {});
+    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last}, {});
     if (!found)
         return tl::unexpected(found.error());
-    for (const Found &device : *found)
+    for (const Found &device : found->devices)
         print(work, device);
-    return found->size();
+    if (!found->unreadable.isEmpty())
+        work.output.note(QStringLiteral("%1 bps: %2").arg(work.bus.line().baudRate()).arg(found->unreadable));
+    return found->devices.size();
 }
 
 } // namespace

@@ -16,6 +16,9 @@ Error damagedCrc(std::uint8_t id);
 Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others);
 Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want);
 Error onlyLate(std::uint8_t id);
+/// What was seen of one device, and who else on the line is alive.
+Error withOthers(Error error, const std::vector<std::uint8_t> &others);
+QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found
 Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);

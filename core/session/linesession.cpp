@@ -156,6 +156,7 @@ void LineSession::moveDevice(Device &device, const Found &found)
     device.setFound(found);
     device.setHeard(monotonicNow());
     park(device);
+    emit deviceLocated(&device);
 }
 
 void LineSession::forget(DeviceKey key)

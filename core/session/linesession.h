@@ -52,6 +52,7 @@ signals:
     void deviceAdded(dynascope::Device *device);
     void deviceAboutToBeRemoved(dynascope::Device *device);
     void deviceChanged(dynascope::Device *device);
+    void deviceLocated(dynascope::Device *device); ///< it was looked for after a change or a reboot, and found
     void stateChanged();
     void batchTaken(const dynascope::Batch &batch); ///< after the devices have it
     void rateChanged();                             ///< cycle rate, bus load, statistics: about once a second

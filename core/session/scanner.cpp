@@ -37,15 +37,17 @@ Result<ScanSummary> scan(JobContext &context, const ScanRange &range, const Scan
         const auto report = [&](const Found &found) {
             context.post([notes, found] { notes.found(found); });
         };
-        const auto found = scanBaud(context.bus(), range.firstId, range.lastId, report);
+        const auto found = scanBaud(context.bus(), {range.firstId, range.lastId, range.sweep}, report);
         if (found) {
-            summary.found += static_cast<int>(found->size());
+            summary.found += static_cast<int>(found->devices.size());
+            if (!found->unreadable.isEmpty())
+                summary.trouble << found->unreadable;
             continue;
         }
         const ErrorKind kind = found.error().kind;
         if (kind == ErrorKind::PortLost || kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled)
             return tl::unexpected(found.error());
-        summary.trouble << found.error().text; // somebody is there but unreadable
+        summary.trouble << found.error().text;
     }
     return summary;
 }

@@ -2,8 +2,25 @@
 #include "core/bus/messages.h"
 #include "tests/support/testmain.h"
 
+#include <QTranslator>
+
 using namespace dynascope;
 using namespace std::chrono_literals;
+
+namespace {
+
+/// Knows every sentence of this context, and puts it in brackets.
+class Brackets final : public QTranslator
+{
+public:
+    bool isEmpty() const override { return false; }
+    QString translate(const char *context, const char *text, const char *, int) const override
+    {
+        return QLatin1String(context) == QLatin1String("Messages") ? u'<' + QString::fromUtf8(text) + u'>' : QString();
+    }
+};
+
+} // namespace
 
 class TestMessages : public QObject
 {
@@ -53,6 +70,27 @@ private slots:
         QFETCH(QString, text);
         QFETCH(QString, expected);
         QCOMPARE(text, expected);
+    }
+
+    void canBeTranslated()
+    {
+        Brackets brackets;
+        QCoreApplication::installTranslator(&brackets);
+        const QString port = QStringLiteral("p");
+        const std::vector<Error> all{messages::nothingReceived(1, 1ms), messages::noHeader(1, 2),
+            messages::cutOff(1, 2, 0), messages::cutOff(1, 2, 3), messages::damagedCrc(1), messages::wrongId(1, {2, 3}),
+            messages::wrongLength(1, 2, 3), messages::refused(1, DeviceError::Access), messages::chainBroken(1, 2),
+            messages::silentByLevel(1, 1), messages::mayBeWritten(messages::damagedCrc(1)),
+            messages::notWritten(messages::damagedCrc(1), {}, {}), messages::stopped(), messages::cancelled(),
+            messages::closed(port), messages::notConfirmed(1, {}, {}), messages::packetTooLong(2, 1),
+            messages::portNotFound(port), messages::portEmpty(port),
+            messages::portForbidden(port), messages::portBusy(port, port), messages::portBusy(port, {}),
+            messages::portNotSerial(port), messages::portFailed(port, port), messages::portLost(port),
+            messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0)};
+        QCoreApplication::removeTranslator(&brackets);
+        for (const Error &error : all)
+            QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));
+        QCOMPARE(messages::wrongId(1, {2}).text, QStringLiteral("device 1 did not answer, but device 2 did"));
     }
 
     void saysDurationsShortly()
