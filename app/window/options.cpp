@@ -29,7 +29,8 @@ WindowOptions parseOptions(const QApplication &application)
     parser.addHelpOption();
     parser.addVersionOption();
     const QCommandLineOption port(QStringLiteral("port"),
-                                  QStringLiteral("Open this port: a path, or \"sim\" for the simulated bus."),
+                                  QStringLiteral("Open this port: a path, tcp://HOST:PORT or rfc2217://HOST:PORT for a serial "
+                                                 "server, or \"sim\" for the simulated bus."),
                                   QStringLiteral("PORT"));
     const QCommandLineOption baud(QStringLiteral("baud"), QStringLiteral("The line's baud rate, bits per second."),
                                   QStringLiteral("RATE"));

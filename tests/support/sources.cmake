@@ -13,6 +13,7 @@ if(UNIX)
     target_sources(dynascope_test_support PRIVATE
         support/dxlprocess_posix.cpp support/dxlprocess.h
         support/ptyclient_posix.cpp support/ptyclient.h
+        support/loopbackserver_posix.cpp support/loopbackserver.h
         support/ptymaster_posix.cpp support/ptymaster.h
     )
 endif()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of ID and baud rate, and Factory Reset: after them the device stands elsewhere.
+#include "core/bus/messages.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/procedures/procedures.h"
 
@@ -61,6 +62,14 @@ Result<void> writeOnce(Bus &bus, const SpanData &data)
     return bus.settle(2ms, 100ms); // whatever else came of it is looked up, not believed
 }
 
+/// Where the rate is somebody else's, even the one we were told may not be the true one: no device is moved away from it.
+Result<void> rateIsOurs(Bus &bus)
+{
+    if (bus.line().canSetBaudRate())
+        return {};
+    return tl::unexpected(messages::deviceRateBound(bus.line().name()));
+}
+
 } // namespace
 
 Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan)
@@ -104,6 +113,8 @@ Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan)
 {
     Bus &bus = context.bus();
     const DevicePlace &place = plan.place;
+    if (const auto ours = rateIsOurs(bus); !ours)
+        return tl::unexpected(ours.error());
     const AtBaud there(bus, place.baudRate);
     if (!there.entered())
         return tl::unexpected(there.entered().error());
@@ -153,6 +164,8 @@ Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan)
 Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
 {
     Bus &bus = context.bus();
+    if (const auto ours = rateIsOurs(bus); !ours && plan.option != ResetOption::AllButIdAndBaud)
+        return ours;
     const bool moves = plan.after.id != plan.place.id || plan.after.baudRate != plan.place.baudRate;
     if (moves) {
         const AtBaud after(bus, plan.after.baudRate);
