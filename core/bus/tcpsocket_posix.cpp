@@ -69,6 +69,8 @@ Result<Addresses> resolve(
         if (TcpSocket::now() >= deadline)
             return tl::unexpected(messages::nameServerSilent(name, address.host));
     }
+    if (cancel.load(std::memory_order_acquire))
+        return tl::unexpected(messages::cancelled());
     Lookup found = answer.get();
     if (found.error == 0)
         return found.addresses;

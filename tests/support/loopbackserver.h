@@ -23,7 +23,8 @@ public:
     void hangUp();
     void stopListening();
 
-    static quint16 freePort(); ///< nobody listens there now
+    static quint16 freePort();                ///< nobody listens there now
+    static bool isListenedAt(quint16 port);   ///< found out without connecting
 
 private:
     bool wait(int descriptor) const;

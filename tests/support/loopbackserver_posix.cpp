@@ -106,3 +106,18 @@ quint16 LoopbackServer::freePort()
 {
     return LoopbackServer().m_port;
 }
+
+bool LoopbackServer::isListenedAt(quint16 port)
+{
+    sockaddr_in where{};
+    where.sin_family = AF_INET;
+    where.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    where.sin_port = htons(port);
+    const int probe = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    // What a server left behind when it was killed is no listener.
+    const int on = 1;
+    ::setsockopt(probe, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+    const bool taken = ::bind(probe, reinterpret_cast<sockaddr *>(&where), sizeof where) != 0;
+    ::close(probe);
+    return taken;
+}
