@@ -19,9 +19,11 @@ target_sources(dynascope_core PRIVATE
     bus/scan.cpp
     bus/serialbaud_posix.cpp
     bus/serialline.cpp bus/serialline.h bus/seriallinefactory.h
+    bus/serialportlist.cpp
     bus/serialport_posix.cpp bus/serialport_posix.h
     bus/stop_values.h
     bus/stopsequence.cpp bus/stopsequence.h
     bus/tcpsocket_posix.cpp bus/tcpsocket_posix.h
     bus/timing.cpp bus/timing.h
+    bus/usbidentity.cpp bus/usbidentity.h
 )
