@@ -49,9 +49,11 @@ void Reopener::follow(LineSession *line)
 void Reopener::onState(LineSession *line)
 {
     if (line->state() == BusThread::State::Lost) {
-        m_lost.try_emplace(line, line->name());
+        m_lost.try_emplace(line, Lost{line->name(), 0});
         return;
     }
+    if (line->state() == BusThread::State::Closed)
+        onRefused(line);
     if (line->state() != BusThread::State::Open)
         return;
     take(m_ports.ports());
@@ -59,9 +61,21 @@ void Reopener::onState(LineSession *line)
     const auto lost = m_lost.find(line);
     if (lost == m_lost.end())
         return;
-    const QString former = lost->second;
+    const QString former = lost->second.name;
     m_lost.erase(lost);
     emit lineBack(line, former);
+}
+
+/// Just plugged in, a port may not be ours to open for a moment: its rights come a little later.
+void Reopener::onRefused(LineSession *line)
+{
+    constexpr int Patience = 4;
+    const Error why = line->bus().error();
+    const auto lost = m_lost.find(line);
+    if (lost == m_lost.end() || why.kind == ErrorKind::PortNotFound || why.kind == ErrorKind::Cancelled)
+        return;
+    if (++lost->second.refusals == Patience)
+        emit lineRefused(line, why);
 }
 
 void Reopener::take(std::vector<PortInfo> ports)

@@ -37,8 +37,14 @@ public:
 signals:
     void portsChanged();
     void lineBack(dynascope::LineSession *line, const QString &formerName);
+    /// Its adapter is there, and yet the line can't be opened, again and again: told once.
+    void lineRefused(dynascope::LineSession *line, const dynascope::Error &why);
 
 private:
+    struct Lost {
+        QString name; ///< that it had
+        int refusals = 0;
+    };
     /// What a line was opened on.
     struct Adapter {
         QString identity;
@@ -48,6 +54,7 @@ private:
     void take(std::vector<PortInfo> ports);
     void follow(LineSession *line);
     void onState(LineSession *line);
+    void onRefused(LineSession *line);
     QString identityOf(const QString &name) const;
     bool isOpenElsewhere(const LineSession &line, const QString &name) const;
 
@@ -55,7 +62,7 @@ private:
     PortList &m_ports;
     std::vector<PortInfo> m_seen;
     std::map<const LineSession *, Adapter> m_adapters; ///< of lines that are or were open
-    std::map<const LineSession *, QString> m_lost;     ///< by the name they had
+    std::map<const LineSession *, Lost> m_lost;
     bool m_automatic = true;
     QTimer m_timer;
 };

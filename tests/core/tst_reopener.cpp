@@ -128,6 +128,23 @@ private slots:
         QCOMPARE(line.state(), BusThread::State::Lost);
     }
 
+    void saysOnceThatItIsRefused()
+    {
+        LineSession &line = openAndScan();
+        QSignalSpy refused(m_reopener.get(), &Reopener::lineRefused);
+        m_bench->lines.plug({port(u"/dev/forbidden"_s, u"A"_s)});
+        QTRY_COMPARE(line.state(), BusThread::State::Lost);
+        m_reopener->look();
+        QTRY_COMPARE(line.state(), BusThread::State::Closed);
+        QCOMPARE(refused.size(), 0); // rights may still be on their way
+        for (int attempt = 0; attempt < 8; ++attempt) {
+            m_reopener->look();
+            QTRY_COMPARE(line.state(), BusThread::State::Closed);
+        }
+        QCOMPARE(refused.size(), 1);
+        QCOMPARE(refused.front().at(1).value<Error>().kind, ErrorKind::PortForbidden);
+    }
+
     void onlyWhenWanted()
     {
         LineSession &line = openAndScan();
@@ -208,5 +225,6 @@ private:
     std::unique_ptr<Reopener> m_reopener;
 };
 
+Q_DECLARE_METATYPE(dynascope::Error)
 DYNASCOPE_CORE_TEST(TestReopener)
 #include "tst_reopener.moc"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/texts.h"
 
+#include "core/bus/networkaddress_values.h"
 #include "core/table/units.h"
 
 #include <QCoreApplication>
@@ -56,7 +57,10 @@ QString lineStateText(const LineSession &line)
 {
     switch (line.state()) {
     case BusThread::State::Opening: return tr("Opening…");
-    case BusThread::State::Open: return tr("Connected at %1").arg(baudText(line.baudRate()));
+    case BusThread::State::Open:
+        if (isRateTheServers(line.name()))
+            return tr("Connected at the server's rate");
+        return tr("Connected at %1").arg(baudText(line.baudRate()));
     case BusThread::State::Lost: return tr("Connection lost");
     case BusThread::State::Closed: break;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/session.h"
+#include "core/session/reopener.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
 
@@ -11,7 +11,7 @@ namespace dynascope {
 
 struct ScanRange;
 
-/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its port is back.
+/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its adapter is back.
 class Connector : public QObject
 {
     Q_OBJECT
@@ -24,6 +24,7 @@ public:
     void reconnect(LineSession &line);
     void scan(LineSession &line, const ScanRange &range);
     void cancelScan();
+    void setReopening(bool byItself); ///< whether lost lines are opened again unasked; remembered
 
     LineSession *line(const QString &port) const; ///< nullptr where none of that name is open
     LineSession *scannedLine() const { return m_scanned; }
@@ -33,11 +34,14 @@ public:
     static QString lastPort();
     static int lastBaudRate(const QString &port); ///< 57 600, on the simulated bus 1 M, where it never was open
     static QStringList recentPorts(); ///< newest first
+    static bool isReopening();
     /// @}
 
 signals:
     void changed(); ///< a line came, went, or is in another state
     void posted(const dynascope::Message &message);
+    void portsChanged(); ///< something was plugged in or pulled out
+    void moved(const QString &formerPort, const QString &port); ///< a line's adapter has come back elsewhere
 
 private:
     void follow(LineSession *line);
@@ -46,15 +50,14 @@ private:
     void onLost(LineSession *line);
     void onRefused(LineSession *line);
     void onScanned(int found, const QString &trouble);
-    void tryAgain();
-    bool isThere(const QString &port) const;
+    void onBack(LineSession *line, const QString &formerPort);
     static void remember(const QString &port, int baudRate);
 
     Workbench m_workbench;
     QPointer<LineSession> m_scanned;
     QSet<LineSession *> m_opened; ///< have been open at least once
     QSet<LineSession *> m_lost;   ///< said to be gone, wait for their port
-    QTimer m_retryTimer;
+    Reopener m_reopener;
 };
 
 } // namespace dynascope
