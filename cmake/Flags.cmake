@@ -19,3 +19,6 @@ if(DYNASCOPE_SANITIZE)
         -fno-sanitize-recover=all)
     target_link_options(dynascope_flags INTERFACE -fsanitize=${DYNASCOPE_SANITIZE})
 endif()
+if(DYNASCOPE_FUZZ)
+    target_compile_options(dynascope_flags INTERFACE -fsanitize=fuzzer-no-link) # what libFuzzer is guided by
+endif()

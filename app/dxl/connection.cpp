@@ -33,6 +33,11 @@ Result<std::unique_ptr<Connection>> Connection::open(const Options &options)
     NetworkLineFactory network;
     LineFactory &factory = network.knows(options.port) ? static_cast<LineFactory &>(network) : serial;
     auto line = factory.open(options.port, options.baudRate);
+    if (!line && line.error().kind == ErrorKind::PortNotFound && options.port == u"sim") {
+        return failure(ErrorKind::PortNotFound,
+                       QStringLiteral("there is no port sim here: dxl sim --devices MODEL@BAUD:ID serves a simulated bus; "
+                                      "pass the path that it prints as --port"));
+    }
     if (!line)
         return tl::unexpected(line.error());
     std::unique_ptr<Connection> connection(new Connection(std::move(*line)));

@@ -27,10 +27,10 @@ QStringList namesLike(const ControlTable &table, const QString &typed)
 
 Result<void> Device::identify(const Catalog &catalog)
 {
-    const auto reply = ping(m_bus, m_id);
+    const auto reply = ping(m_bus, id());
     if (!reply)
         return tl::unexpected(reply.error());
-    m_modelNumber = reply->modelNumber;
+    m_found = {reply->id, m_bus.line().baudRate(), reply->modelNumber, reply->firmware, reply->alert, {}};
     m_table = catalog.find(reply->modelNumber, reply->firmware);
     m_model = modelName(catalog, reply->modelNumber);
     const Field *level = m_table ? m_table->find(u"Status Return Level") : nullptr;
@@ -49,7 +49,7 @@ Result<void> Device::identify(const Catalog &catalog)
 
 QString Device::name() const
 {
-    return m_model.isEmpty() ? QStringLiteral("ID %1").arg(m_id) : QStringLiteral("%1 (ID %2)").arg(m_model).arg(m_id);
+    return m_model.isEmpty() ? QStringLiteral("ID %1").arg(id()) : QStringLiteral("%1 (ID %2)").arg(m_model).arg(id());
 }
 
 Result<const Field *> Device::field(const QString &name) const
@@ -57,7 +57,7 @@ Result<const Field *> Device::field(const QString &name) const
     if (!m_table) {
         return failure(ErrorKind::InvalidArgument,
                        QStringLiteral("%1: there is no control table for model %2; \"%3\" has to be given as ADDRESS:LENGTH")
-                           .arg(this->name()).arg(m_modelNumber).arg(name));
+                           .arg(this->name()).arg(m_found.modelNumber).arg(name));
     }
     if (const Field *field = m_table->find(name))
         return field;
@@ -70,7 +70,7 @@ Result<const Field *> Device::field(const QString &name) const
 
 Result<Bytes> Device::read(int address, int length)
 {
-    auto reply = dynascope::read(m_bus, {m_id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
+    auto reply = dynascope::read(m_bus, {id(), static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
     if (!reply)
         return tl::unexpected(reply.error());
     return std::move(reply->data);
@@ -101,16 +101,21 @@ EffectiveField Device::limits(const Field &field)
     return effective(field, [&](QStringView name) { return lookUp(name); });
 }
 
-void Device::learn(const Field &field, std::int64_t raw)
+void Device::assume(const Field &field, std::int64_t raw)
 {
     m_known[normalizedName(field.name)] = raw;
+}
+
+void Device::learn(const Field &field, std::int64_t raw)
+{
+    assume(field, raw);
     if (normalizedName(field.name) == u"statusreturnlevel")
         setTraits(static_cast<std::uint8_t>(raw));
 }
 
 Result<void> Device::follow(const Found &found)
 {
-    m_id = found.id;
+    m_found = found;
     setTraits(m_statusReturnLevel);
     return m_bus.line().baudRate() == found.baudRate ? Result<void>() : m_bus.setBaudRate(found.baudRate);
 }
@@ -131,7 +136,7 @@ void Device::setTraits(std::uint8_t statusReturnLevel)
 {
     m_statusReturnLevel = statusReturnLevel;
     Traits traits;
-    traits.id = m_id;
+    traits.id = id();
     traits.baudRate = m_bus.line().baudRate();
     traits.statusReturnLevel = statusReturnLevel;
     m_bus.setTraits({traits});

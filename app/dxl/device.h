@@ -12,14 +12,16 @@ namespace dynascope::dxl {
 class Device
 {
 public:
-    Device(Bus &bus, std::uint8_t id) : m_bus(bus), m_id(id) {}
+    Device(Bus &bus, std::uint8_t id) : m_bus(bus) { m_found.id = id; }
 
     /// Pings; from then on the device has a table if its model is known, and the bus knows how it answers.
     Result<void> identify(const Catalog &catalog);
 
     Bus &bus() const { return m_bus; }
-    std::uint8_t id() const { return m_id; }
-    std::uint16_t modelNumber() const { return m_modelNumber; }
+    std::uint8_t id() const { return m_found.id; }
+    const Found &found() const { return m_found; } ///< once it is identified
+    /// At 0 it answers Ping alone: nothing can be read.
+    bool isMute() const { return m_statusReturnLevel == 0; }
     bool isIdentified() const { return !m_model.isEmpty(); }
     QString name() const; ///< "XM430-W350 (ID 1)"
     const ControlTable *table() const { return m_table.get(); }
@@ -35,7 +37,9 @@ public:
     /// Its unit and its limits now. Registers that can't be read limit nothing: the device itself will refuse.
     EffectiveField limits(const Field &field);
 
-    /// `field` has or will have this value, whatever was read before.
+    /// `field` will have this value when units and limits matter, whatever was read before.
+    void assume(const Field &field, std::int64_t raw);
+    /// `field` has this value, or it is being written: from now on the device answers by it.
     void learn(const Field &field, std::int64_t raw);
     /// Other registers may have changed with a write: forget what was read.
     void forget() { m_known.clear(); }
@@ -47,8 +51,7 @@ private:
     void setTraits(std::uint8_t statusReturnLevel);
 
     Bus &m_bus;
-    std::uint8_t m_id;
-    std::uint16_t m_modelNumber = 0;
+    Found m_found;
     std::uint8_t m_statusReturnLevel = 2;
     ControlTablePtr m_table;
     QString m_model;

@@ -4,7 +4,7 @@
 /// `dxl`, the command line tool: finds, reads and writes servos on one line, and serves a simulated bus.
 namespace dynascope::dxl {
 
-/// Does what the arguments say. The program's exit code: 0 done, 1 a device or the line failed, 2 wrong usage.
+/// Does what the arguments say. The program's exit code: see ExitCode.
 int run(int argc, const char *const *argv);
 
 } // namespace dynascope::dxl

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <optional>
 #include <string>
 
 namespace dynascope::dxl {
@@ -14,7 +15,8 @@ namespace {
 
 /// As typed, before our own languages are read.
 struct Typed {
-    std::string port, bauds, ids = "0-252", devices, link;
+    std::string port, ids = "0-252", devices, link;
+    std::optional<std::string> bauds;
     int baudRate = 57600;
     int id = 0;
     bool json = false;
@@ -39,7 +41,8 @@ void describe(CLI::App &app, Typed &typed)
         ->check(CLI::Range(1, 100'000'000).description({}));
     app.add_flag("--json", typed.json, "One JSON document on standard output");
     app.add_flag("-v,--verbose", typed.verbose, "Show every packet on standard error");
-    app.footer("Exit code: 0 done, 1 a device or the line failed, 2 wrong usage.");
+    app.footer("Exit code: 0 done, 1 a device or the line failed, 2 wrong usage and nothing was written, 3 sent, but not "
+               "confirmed: the device's Status Return Level 0 lets nothing be read back.");
 
     CLI::App *scan = app.add_subcommand("scan", "Find the devices on the line");
     scan->add_option("--bauds", typed.bauds, "Baud rates to try: 57600,1000000 or all (that of --baud)")
@@ -97,10 +100,10 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
                                                        .arg(QString::fromStdString(name)));
 
     options.bauds = {options.baudRate};
-    if (!typed.bauds.empty()) {
-        const auto bauds = parseBauds(QString::fromStdString(typed.bauds), allBauds());
+    if (typed.bauds) {
+        const auto bauds = parseBauds(QString::fromStdString(*typed.bauds), allBauds());
         if (!bauds)
-            return tl::unexpected(bauds.error());
+            return failure(ErrorKind::InvalidArgument, QStringLiteral("--bauds: ") + bauds.error().text);
         options.bauds = *bauds;
     }
     const auto ids = parseIds(QString::fromStdString(typed.ids));

@@ -7,7 +7,12 @@
 
 namespace dynascope::dxl {
 
-enum class ExitCode { Done = 0, Failed = 1, Usage = 2 };
+enum class ExitCode {
+    Done = 0,
+    Failed = 1,      ///< a device or the line
+    Usage = 2,       ///< nothing was written
+    Unconfirmed = 3, ///< sent to a device that was told never to answer
+};
 
 enum class Command { Scan, Ping, Read, Write, Sim };
 

@@ -21,6 +21,13 @@ void Output::failedResult(const Document &document)
         m_documents.append(document.toJson());
 }
 
+void Output::unconfirmed(const QString &text, const Document &document)
+{
+    note(text);
+    if (m_json)
+        m_documents.append(document.toJson());
+}
+
 ExitCode Output::fail(const Error &error)
 {
     note(error.text);

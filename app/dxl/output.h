@@ -23,6 +23,9 @@ public:
     /// In a JSON array, in place of the result that did not come.
     void failedResult(const Document &document);
 
+    /// A write of which nothing can be read back: a place in the JSON, a note else.
+    void unconfirmed(const QString &text, const Document &document);
+
     ExitCode fail(const Error &error);   ///< a device or the line failed
     ExitCode refuse(const Error &error); ///< what was asked makes no sense
     void note(const QString &text); ///< not an error; without the final stop

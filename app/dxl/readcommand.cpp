@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
-#include "app/dxl/device.h"
 #include "app/dxl/showvalue.h"
-
-#include <algorithm>
+#include "app/dxl/target.h"
 
 namespace dynascope::dxl {
 
@@ -30,29 +28,25 @@ Result<void> readOne(Output &output, Device &device, const RegisterArgument &arg
 
 ExitCode readCommand(const Work &work)
 {
+    std::optional<Device> device = target(work, true);
+    if (!device)
+        return ExitCode::Failed;
     const std::vector<RegisterArgument> &registers = work.options.registers;
-    if (registers.size() > 1)
-        work.output.expectMany();
-    Device device(work.bus, work.options.id);
-    if (!std::all_of(registers.begin(), registers.end(), [](const auto &argument) { return argument.isByAddress(); })) {
-        if (const auto known = device.identify(work.catalog); !known)
-            return work.output.fail(withAdvice(known.error(), work.options));
-    }
     std::vector<const Field *> fields; // nullptr where an address was given
     for (const RegisterArgument &argument : registers) {
-        const auto field = argument.isByAddress() ? Result<const Field *>(nullptr) : device.field(argument.field);
+        const auto field = argument.isByAddress() ? Result<const Field *>(nullptr) : device->field(argument.field);
         if (!field)
             return work.output.refuse(field.error());
         fields.push_back(*field);
     }
     ExitCode code = ExitCode::Done;
     for (std::size_t i = 0; i < registers.size(); ++i) {
-        const auto done = readOne(work.output, device, registers[i], fields[i]);
+        const auto done = readOne(work.output, *device, registers[i], fields[i]);
         if (done)
             continue;
         // Who answered the Ping is at the right baud rate.
-        const Error error = device.isIdentified() ? done.error() : withAdvice(done.error(), work.options);
-        code = showFailure(work.output, device, registers[i], error);
+        const Error error = device->isIdentified() ? done.error() : withAdvice(done.error(), work.options);
+        code = showFailure(work.output, *device, registers[i], error);
         if (done.error().kind != ErrorKind::Refused)
             break; // whoever is silent once would let each further register wait
     }

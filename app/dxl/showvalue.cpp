@@ -28,6 +28,16 @@ void showField(Output &output, Device &device, const Field &field, std::int64_t 
     output.result(QStringLiteral("%1 = %2").arg(field.name, text), document);
 }
 
+namespace {
+
+QString hex(const Bytes &bytes, char separator)
+{
+    const QByteArray raw(reinterpret_cast<const char *>(bytes.data()), static_cast<qsizetype>(bytes.size()));
+    return QString::fromLatin1(separator ? raw.toHex(separator) : raw.toHex());
+}
+
+} // namespace
+
 void showBytes(Output &output, const Device &device, const RegisterArgument &argument, const Bytes &bytes)
 {
     Document document;
@@ -40,14 +50,35 @@ void showBytes(Output &output, const Device &device, const RegisterArgument &arg
         document.add("raw", qint64(raw));
         text = QStringLiteral("%1 (0x%2)").arg(raw).arg(raw, 2 * argument.length, 16, QLatin1Char('0'));
     } else {
-        text = QString::fromLatin1(
-            QByteArray(reinterpret_cast<const char *>(bytes.data()), static_cast<qsizetype>(bytes.size())).toHex(' '));
-        document.add("hex", QString(text).remove(u' '));
+        text = hex(bytes, ' ');
+        document.add("hex", hex(bytes, 0));
     }
     output.result(QStringLiteral("%1 = %2").arg(argument.text(), text), document);
 }
 
-ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error)
+void showSent(Output &output, const Device &device, const Field *field, const RegisterArgument &argument,
+              const Bytes &bytes)
+{
+    Document document;
+    document.add("id", qint64(device.id()));
+    if (argument.isByAddress()) {
+        document.add("address", qint64(argument.address)).add("length", qint64(argument.length));
+        if (argument.length <= 4)
+            document.add("sent", qint64(littleEndian(bytes, argument.length)));
+        else
+            document.add("sent", hex(bytes, 0));
+    } else {
+        document.add("field", field->name)
+            .add("address", qint64(field->address))
+            .add("sent", qint64(rawFromBytes(*field, bytes)));
+    }
+    document.addFlag("confirmed", false);
+    const QString reason = QStringLiteral("the Status Return Level 0 of %1 lets nothing be read back").arg(device.name());
+    output.unconfirmed(QStringLiteral("%1: sent, but not confirmed: %2").arg(argument.text(), reason), document);
+}
+
+ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error,
+                     const QString &aftermath)
 {
     Document document;
     document.add("id", qint64(device.id()));
@@ -55,11 +86,18 @@ ExitCode showFailure(Output &output, const Device &device, const RegisterArgumen
         document.add("address", qint64(argument.address)).add("length", qint64(argument.length));
     else
         document.add("field", argument.field);
-    document.add("error", error.text);
+    Error named = withWayOut(error, device);
+    document.add("error", named.text);
     output.failedResult(document);
-    Error named = error;
-    named.text = QStringLiteral("%1: %2").arg(argument.text(), error.text);
+    named.text = QStringLiteral("%1: %2%3").arg(argument.text(), named.text, aftermath);
     return output.fail(named);
+}
+
+Error withWayOut(const Error &error, const Device &device)
+{
+    if (!device.isMute() || error.kind != ErrorKind::NothingReceived)
+        return error;
+    return {error.kind, error.text + QStringLiteral("; write status_return_level=1 first")};
 }
 
 } // namespace dynascope::dxl

@@ -12,7 +12,15 @@ void showField(Output &output, Device &device, const Field &field, std::int64_t 
 /// "132:4 = 2048", or {"id":1,"address":132,"length":4,"raw":2048}; more than four bytes as hexadecimal digits.
 void showBytes(Output &output, const Device &device, const RegisterArgument &argument, const Bytes &bytes);
 
-/// Prints the error; in a JSON array a place for the register it belongs to.
-ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error);
+/// Says that the value was sent, and why that is all; {"id":1,"field":"LED","address":65,"sent":1,"confirmed":false}.
+void showSent(Output &output, const Device &device, const Field *field, const RegisterArgument &argument,
+              const Bytes &bytes);
+
+/// Prints the error, behind it `aftermath` (what was done before it, if anything); in a JSON array a place for the
+/// register it belongs to.
+ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error,
+                     const QString &aftermath = {});
+/// The error of a device that can't be read for its Status Return Level, with the way out; every other as it is.
+Error withWayOut(const Error &error, const Device &device);
 
 } // namespace dynascope::dxl

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
-#include "app/dxl/device.h"
 #include "app/dxl/directjob.h"
 #include "app/dxl/showvalue.h"
+#include "app/dxl/target.h"
 #include "core/bus/messages.h"
-#include "core/session/procedures/procedures.h"
+#include "core/session/deviceplace.h"
 #include "core/table/units.h"
 
 #include <algorithm>
@@ -16,10 +16,15 @@ namespace {
 /// A register and what will be written to it.
 struct Assignment {
     RegisterArgument argument;
-    const Field *field = nullptr; ///< nullptr where an address was given
+    const Field *field = nullptr; ///< also where its address and length were given; nullptr: none known
     std::int64_t raw = 0;         ///< of the field
     Bytes data;
+
+    bool isLockedByTorque() const { return !argument.isByAddress() && field->needsTorqueOff(); }
 };
+
+/// Where a device is changes with these.
+constexpr const char16_t *PlaceFields[] = {u"ID", u"Baud Rate"};
 
 Result<Assignment> prepare(Device &device, const RegisterArgument &argument)
 {
@@ -31,7 +36,11 @@ Result<Assignment> prepare(Device &device, const RegisterArgument &argument)
         const int end = argument.address + static_cast<int>(data->size());
         if (baud && baud->address >= argument.address && baud->address < end && !device.bus().line().canSetBaudRate())
             return tl::unexpected(messages::deviceRateBound(device.bus().line().name()));
-        return Assignment{argument, nullptr, 0, std::move(*data)};
+        const Field *known = device.table() ? device.table()->at(argument.address) : nullptr;
+        if (!known || known->size != argument.length)
+            return Assignment{argument, nullptr, 0, std::move(*data)};
+        device.assume(*known, rawFromBytes(*known, *data));
+        return Assignment{argument, known, rawFromBytes(*known, *data), std::move(*data)};
     }
     const auto field = device.field(argument.field);
     if (!field)
@@ -43,32 +52,22 @@ Result<Assignment> prepare(Device &device, const RegisterArgument &argument)
     const auto raw = parseValue(**field, device.limits(**field), device.table()->resolution(), argument.value);
     if (!raw)
         return tl::unexpected(raw.error());
-    device.learn(**field, *raw); // so that it limits what is assigned after it
+    device.assume(**field, *raw); // so that it limits what is assigned after it
     return Assignment{argument, *field, *raw, bytesFromRaw(**field, *raw)};
-}
-
-DevicePlace placeOf(const Device &device)
-{
-    const Field *torque = device.table()->find(u"Torque Enable");
-    return {device.id(), device.bus().line().baudRate(), device.modelNumber(),
-            torque ? torque->address : std::uint16_t(0), device.name()};
 }
 
 /// After a change of ID or baud rate the device answers elsewhere: such writes are procedures, which look for it there.
 Result<void> move(Device &device, const Assignment &assignment)
 {
     DirectJob job(device.bus());
+    const DevicePlace place = placeOf(device.found(), *device.table(), device.name());
     Result<Found> found;
     if (normalizedName(assignment.field->name) == u"id") {
-        found = changeId(job, {placeOf(device), static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
+        found = changeId(job, {place, static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
     } else {
-        const auto rate = device.table()->baudRate(static_cast<int>(assignment.raw));
-        if (!rate) {
-            return failure(ErrorKind::InvalidArgument,
-                           QStringLiteral("%1 has no baud rate with the code %2").arg(device.name()).arg(assignment.raw));
-        }
-        found = changeBaud(job, {placeOf(device), *rate, static_cast<std::uint8_t>(assignment.raw),
-                                 assignment.field->address, false});
+        const int rate = device.table()->baudRate(static_cast<int>(assignment.raw)).value(); // moves() has looked
+        const auto code = static_cast<std::uint8_t>(assignment.raw);
+        found = changeBaud(job, {place, rate, code, assignment.field->address, false});
     }
     return found ? device.follow(*found) : Result<void>(tl::unexpected(found.error()));
 }
@@ -77,53 +76,63 @@ bool moves(Device &device, const Assignment &assignment)
 {
     if (!assignment.field)
         return false;
-    const QString name = normalizedName(assignment.field->name);
-    if (name != u"id" && name != u"baudrate")
+    const bool isId = assignment.field == device.table()->find(u"ID");
+    if (!isId && assignment.field != device.table()->find(u"Baud Rate"))
+        return false;
+    // By address also what the table doesn't know may be sent; it leads to no place that one could look at.
+    if (isId ? assignment.raw > MaximumId : !device.table()->baudRate(static_cast<int>(assignment.raw)))
         return false;
     const auto present = device.read(*assignment.field);
-    return present && *present != assignment.raw;
+    return !present || *present != assignment.raw;
 }
 
-/// One write, verified and printed as it was read back.
-Result<void> writeOne(Output &output, Device &device, const Assignment &assignment)
+enum class Written { ReadBack, Sent };
+
+/// One write, verified and printed as it was read back, as far as the device lets itself be read.
+Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment)
 {
-    if (moves(device, assignment)) {
-        const auto moved = move(device, assignment);
-        if (!moved)
-            return moved;
-        showField(output, device, *assignment.field, assignment.raw);
-        return {};
-    }
     const int address = assignment.field ? assignment.field->address : assignment.argument.address;
-    if (assignment.field)
-        device.learn(*assignment.field, assignment.raw);
-    const auto back = writeVerified(device.bus(), {device.id(), static_cast<std::uint16_t>(address), assignment.data});
+    const auto length = static_cast<int>(assignment.data.size());
+    Result<Bytes> back;
+    if (moves(device, assignment)) {
+        if (const auto moved = move(device, assignment); !moved)
+            return tl::unexpected(moved.error());
+        back = device.read(address, length);
+    } else {
+        if (assignment.field)
+            device.learn(*assignment.field, assignment.raw);
+        const SpanData data{device.id(), static_cast<std::uint16_t>(address), assignment.data};
+        if (device.isMute()) {
+            if (const auto sent = write(device.bus(), data); !sent)
+                return tl::unexpected(sent.error());
+            showSent(output, device, assignment.field, assignment.argument, assignment.data);
+            return Written::Sent;
+        }
+        back = writeVerified(device.bus(), data);
+    }
     if (!back)
         return tl::unexpected(back.error());
-    if (assignment.field)
-        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *back));
-    else
+    if (assignment.argument.isByAddress())
         showBytes(output, device, assignment.argument, *back);
-    return {};
+    else
+        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *back));
+    return Written::ReadBack;
 }
 
 /// EEPROM is locked under torque: refused before the first write, not in the middle of several.
 Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments)
 {
-    const Field *torque = device.table()->find(u"Torque Enable");
-    const auto locked = [](const Assignment &assignment) {
-        return assignment.field && assignment.field->needsTorqueOff();
-    };
-    if (!torque || std::ranges::none_of(assignments, locked))
+    const Field *torque = device.table() ? device.table()->find(u"Torque Enable") : nullptr;
+    if (!torque || std::ranges::none_of(assignments, &Assignment::isLockedByTorque))
         return {};
     const auto present = device.read(*torque);
     if (!present)
-        return tl::unexpected(present.error());
+        return tl::unexpected(withWayOut(present.error(), device));
     bool on = *present != 0;
     for (const Assignment &assignment : assignments) {
         if (assignment.field == torque)
             on = assignment.raw != 0;
-        else if (on && locked(assignment)) {
+        else if (on && assignment.isLockedByTorque()) {
             return failure(ErrorKind::InvalidArgument,
                            QStringLiteral("%1: %2 is in the EEPROM area, which is locked while torque is on; write "
                                           "torque_enable=off first; nothing was written")
@@ -133,31 +142,72 @@ Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignme
     return {};
 }
 
+/// A span that changes ID or baud rate among others would leave open where to look for the device.
+Result<void> checkSpans(Device &device, const std::vector<Assignment> &assignments)
+{
+    for (const Assignment &assignment : assignments) {
+        const RegisterArgument &span = assignment.argument;
+        for (const char16_t *name : PlaceFields) {
+            const Field *field = device.table() ? device.table()->find(name) : nullptr;
+            if (!field || !span.isByAddress() || assignment.field == field || field->address < span.address
+                || field->end() > span.address + span.length)
+                continue;
+            const auto written = rawFromBytes(*field, ByteView(assignment.data).subspan(
+                                                          static_cast<std::size_t>(field->address - span.address)));
+            const auto present = device.read(*field);
+            if (present && *present == written)
+                continue;
+            return failure(ErrorKind::InvalidArgument,
+                           QStringLiteral("%1 changes the %2 among others: write %3:%4 by itself; nothing was written")
+                               .arg(span.text(), field->name).arg(field->address).arg(field->size));
+        }
+    }
+    return {};
+}
+
+/// What became of the assignments before the one that failed.
+QString doneBefore(const std::vector<Assignment> &assignments, std::size_t failed)
+{
+    if (assignments.size() < 2)
+        return {};
+    QStringList names;
+    for (std::size_t i = 0; i < failed; ++i)
+        names << assignments[i].argument.text();
+    return names.isEmpty() ? QStringLiteral("; nothing was written before it")
+                           : QStringLiteral("; written before it: %1").arg(names.join(QStringLiteral(", ")));
+}
+
 } // namespace
 
 ExitCode writeCommand(const Work &work)
 {
-    const std::vector<RegisterArgument> &registers = work.options.registers;
-    if (registers.size() > 1)
-        work.output.expectMany();
-    Device device(work.bus, work.options.id);
-    if (const auto known = device.identify(work.catalog); !known)
-        return work.output.fail(withAdvice(known.error(), work.options));
+    std::optional<Device> known = target(work, false);
+    if (!known)
+        return ExitCode::Failed;
+    Device &device = *known;
     std::vector<Assignment> assignments;
-    for (const RegisterArgument &argument : registers) {
+    for (const RegisterArgument &argument : work.options.registers) {
         auto assignment = prepare(device, argument);
         if (!assignment)
             return work.output.refuse(assignment.error()); // nothing has been written
         assignments.push_back(std::move(*assignment));
     }
+    if (const auto clear = checkSpans(device, assignments); !clear)
+        return work.output.refuse(clear.error());
     if (const auto free = checkTorque(device, assignments); !free)
         return work.output.fail(free.error());
     device.forget();
-    for (const Assignment &assignment : assignments) {
-        if (const auto done = writeOne(work.output, device, assignment); !done)
-            return showFailure(work.output, device, assignment.argument, done.error());
+    ExitCode code = ExitCode::Done;
+    for (std::size_t i = 0; i < assignments.size(); ++i) {
+        const auto written = writeOne(work.output, device, assignments[i]);
+        if (!written) {
+            return showFailure(work.output, device, assignments[i].argument, written.error(),
+                               doneBefore(assignments, i));
+        }
+        if (*written == Written::Sent)
+            code = ExitCode::Unconfirmed;
     }
-    return ExitCode::Done;
+    return code;
 }
 
 } // namespace dynascope::dxl

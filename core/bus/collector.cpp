@@ -108,7 +108,8 @@ void Collector::takeStatus(const StatusPacket &status, LineTime at)
 
 void Collector::takeAnyone(const StatusPacket &status, LineTime at)
 {
-    if (status.parameters.size() != PingReplyLength || slotOf(status.id)) {
+    const bool isAnswer = status.error == DeviceError::None && status.parameters.size() == PingReplyLength;
+    if (!isAnswer || slotOf(status.id)) {
         stray(status.id); // a second answer under one ID: two devices share it
         return;
     }

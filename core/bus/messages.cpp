@@ -128,6 +128,18 @@ Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack)
             .arg(device(id), hexText(readBack), hexText(written))};
 }
 
+Error mayBeWritten(Error error)
+{
+    error.text += QStringLiteral("; the write may have been executed");
+    return error;
+}
+
+Error notWritten(Error error, ByteView written, ByteView readBack)
+{
+    error.text += QStringLiteral("; the register reads back %1 instead of %2").arg(hexText(readBack), hexText(written));
+    return error;
+}
+
 Error packetTooLong(std::size_t bytes, std::size_t limit)
 {
     return {ErrorKind::InvalidArgument,

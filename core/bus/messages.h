@@ -24,6 +24,10 @@ Error stopped();
 Error cancelled();
 Error closed(const QString &port);
 Error notConfirmed(std::uint8_t id, ByteView written, ByteView readBack);
+/// `error`: why neither an answer nor the value read back tells what became of a write that was sent.
+Error mayBeWritten(Error error);
+/// `error`: why there was no answer to a write; the register was read back since.
+Error notWritten(Error error, ByteView written, ByteView readBack);
 Error packetTooLong(std::size_t bytes, std::size_t limit);
 
 Error portNotFound(const QString &port);

@@ -146,12 +146,12 @@ Result<Bytes> writeVerified(Bus &bus, const SpanData &data)
         }
         shown = read(bus, {data.id, data.address, length});
         if (!shown)
-            return tl::unexpected(written ? shown.error() : written.error());
+            return tl::unexpected(messages::mayBeWritten(written ? shown.error() : written.error()));
         if (shown->data == data.data)
             return std::move(shown->data);
     }
     if (!written) // the answer was lost, and reading back shows that the write was, too
-        return tl::unexpected(written.error());
+        return tl::unexpected(messages::notWritten(written.error(), data.data, shown->data));
     return tl::unexpected(messages::notConfirmed(data.id, data.data, shown->data));
 }
 

@@ -30,18 +30,6 @@ std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
 
 } // namespace
 
-DevicePlace placeOf(const Device &device)
-{
-    DevicePlace place;
-    place.id = device.id();
-    place.baudRate = device.baudRate();
-    place.modelNumber = static_cast<std::uint16_t>(device.modelNumber());
-    place.name = device.displayName();
-    if (const Field *torque = device.table().find(u"Torque Enable"))
-        place.torqueAddress = torque->address;
-    return place;
-}
-
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
 {
     std::vector<Span> spans;

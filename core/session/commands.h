@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/procedures/procedures.h"
+#include "core/session/deviceplace.h"
 #include "core/session/session.h"
 
 #include <map>
@@ -68,8 +68,6 @@ private:
     std::map<FieldKey, std::optional<Waiting>> m_writes; ///< on their way, each with the newest that waits behind it
 };
 
-/// Where the device is, for procedures.
-DevicePlace placeOf(const Device &device);
 /// The stretches of the table to read so that every field is covered, gaps of a few bytes read through, none longer than
 /// `longest` bytes. Only fields that `wanted` accepts.
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest = 128);

@@ -48,6 +48,7 @@ public:
 
     DeviceKey key() const { return m_key; }
     LineSession *line() const { return m_line; }
+    const Found &found() const { return m_found; }
     const ControlTable &table() const { return *m_table; } ///< of an unknown model: one without fields
     bool isKnownModel() const { return !m_table->fields().empty(); }
     QString model() const { return m_table->model(); }

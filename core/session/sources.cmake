@@ -1,6 +1,7 @@
 target_sources(dynascope_core PRIVATE
     session/commands.cpp session/commands.h
     session/device.cpp session/device.h
+    session/deviceplace.cpp session/deviceplace.h
     session/history.cpp session/history.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h

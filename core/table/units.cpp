@@ -71,6 +71,16 @@ QString listed(const std::vector<EnumValue> &values)
     return texts.join(QStringLiteral(", "));
 }
 
+/// Where a name begins with this number ("57600 bps") the name was meant, or its code.
+QString likelyMeant(const std::vector<EnumValue> &values, std::int64_t raw)
+{
+    const auto begins = [raw](const EnumValue &value) { return value.text.startsWith(QStringLiteral("%1 ").arg(raw)); };
+    const auto meant = std::ranges::find_if(values, begins);
+    if (meant == values.end())
+        return {};
+    return QStringLiteral("; write %1 or %2").arg(normalizedName(meant->text)).arg(meant->value);
+}
+
 } // namespace
 
 Physical physical(const EffectiveField &field, int resolution, std::int64_t raw, AngleUnit angle)
@@ -152,7 +162,8 @@ Result<void> checkRange(
 {
     if (!field.values.empty() && !named(field.values, raw)) {
         return failure(ErrorKind::InvalidArgument,
-            QStringLiteral("%1 can't be %2; it is one of %3").arg(field.name).arg(raw).arg(listed(field.values)));
+            QStringLiteral("%1 can't be %2; it is one of %3%4")
+                .arg(field.name).arg(raw).arg(listed(field.values), likelyMeant(field.values, raw)));
     }
     const std::int64_t low = std::max(effective.minimum.value_or(smallestRaw(field)), smallestRaw(field));
     const std::int64_t high = std::min(effective.maximum.value_or(largestRaw(field)), largestRaw(field));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/operations.h"
 #include "core/bus/readplan.h"
+#include "tests/support/exchangetext.h"
 #include "tests/support/fakeservos.h"
 #include "tests/support/hex.h"
 #include "tests/support/oracle.h"
@@ -238,6 +239,30 @@ private slots:
         QCOMPARE(*writeVerified(bus, {3, 9, {5}}), Bytes{5});
     }
 
+    void saysWhatBecameOfALostWrite()
+    {
+        const auto verified = [](const FakeLine::Handler &handler) {
+            FakeLine line;
+            line.handler = handler;
+            Bus bus(line);
+            return exchangetext::untimed(writeVerified(bus, {3, 9, {5}}).error().text);
+        };
+        const QString silence = QStringLiteral("device 3 did not answer: nothing was received in time");
+        const QString mayBe = QStringLiteral("; the write may have been executed");
+        QCOMPARE(verified([](const Bytes &) { return FakeLine::Answer(); }), silence + mayBe);
+        // Answers Ping, which proves that nothing older is in flight, and the write, but no Read.
+        QCOMPARE(verified([](const Bytes &request) -> FakeLine::Answer {
+            if (request[7] == 2)
+                return {};
+            return {{500us, oracle::status(3, 0, request[7] == 1 ? Bytes{6, 4, 38} : Bytes{})}};
+        }), silence + mayBe);
+        QCOMPARE(verified([](const Bytes &request) -> FakeLine::Answer {
+            if (request[7] == 3)
+                return {};
+            return {{500us, oracle::status(3, 0, request[7] == 1 ? Bytes{6, 4, 38} : Bytes{1})}};
+        }), silence + QStringLiteral("; the register reads back 01 instead of 05"));
+    }
+
     void scans()
     {
         FakeLine line;
@@ -253,6 +278,14 @@ private slots:
         QCOMPARE(found->size(), std::size_t(3));
         QCOMPARE((*found)[1], (Found{7, 1'000'000, 1025, 45, false, {}}));
         QVERIFY(line.now() < 900ms);
+    }
+
+    void scanTakesNoErrorForADevice()
+    {
+        FakeLine line;
+        line.answer(oracle::status(9, 0xFF, {6, 4, 38}));
+        Bus bus(line);
+        QCOMPARE(scanBaud(bus, 0, 252, {}).value().size(), std::size_t(0));
     }
 
     void scanDoubtsWhoSharesAnId()

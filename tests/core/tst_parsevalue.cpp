@@ -164,6 +164,9 @@ private slots:
             "\"p\" is no value of Operating Mode; it is one of Current control, Velocity control, "
             "Position control, Extended position control, Current-based position control, PWM control");
         row("Torque Enable", "maybe", "\"maybe\" is no value of Torque Enable; it is one of Off, On");
+        row("Baud Rate", "57600",
+            "Baud Rate can't be 57600; it is one of 0 (9600 bps), 1 (57600 bps), 2 (115200 bps), 3 (1000000 bps), "
+            "4 (2000000 bps), 5 (3000000 bps), 6 (4000000 bps), 7 (4500000 bps); write 57600bps or 1");
         row("Torque Enable", "2", "Torque Enable can't be 2; it is one of 0 (Off), 1 (On)");
         row("Bus Watchdog", "-1", "Bus Watchdog can't be -1 (-20 ms); its range is 0 to 127 (0 to 2540 ms)");
         row("Bus Watchdog", "soon",

@@ -55,7 +55,13 @@ private slots:
     void changesId();
     void keepsOffATakenId();
     void changesBaudRate();
+    void followsChangesByAddress_data();
+    void followsChangesByAddress();
+    void changesPlaceAlone();
+    void saysWhatWasWritten();
     void silentByStatusReturnLevel();
+    void muteDevice();
+    void muteDeviceKeepsItsPlace();
     void showsPackets();
 
 private:
@@ -242,6 +248,7 @@ void TestDxl::refusesBeforeWriting_data()
     QTest::newRow("bytes missing") << u"168:6=0102"_s << u"12 hexadecimal digits"_s;
     QTest::newRow("no such place") << u"65535:2=1"_s << u"outside"_s;
     QTest::newRow("no length") << u"64:0=1"_s << u"length"_s;
+    QTest::newRow("baud rate as code") << u"baud_rate=57600"_s << u"write 57600bps or 1"_s;
 }
 
 void TestDxl::refusesBeforeWriting()
@@ -312,18 +319,104 @@ void TestDxl::changesBaudRate()
     QCOMPARE(dxl({u"ping"_s, u"1"_s}).code, 1);
 }
 
+void TestDxl::followsChangesByAddress_data()
+{
+    QTest::addColumn<QStringList>("assignments");
+    QTest::addColumn<QString>("printed");
+    QTest::addColumn<QString>("baud");
+    QTest::addColumn<QString>("id");
+    QTest::newRow("ID") << QStringList{u"7:1=5"_s} << u"7:1 = 5 (0x05)\n"_s << u"57600"_s << u"5"_s;
+    QTest::newRow("baud rate") << QStringList{u"8:1=3"_s} << u"8:1 = 3 (0x03)\n"_s << u"1000000"_s << u"1"_s;
+    QTest::newRow("what follows goes there")
+        << QStringList{u"7:1=5"_s, u"8:1=3"_s, u"led=on"_s}
+        << u"7:1 = 5 (0x05)\n8:1 = 3 (0x03)\nLED = 1 (On)\n"_s << u"1000000"_s << u"5"_s;
+}
+
+void TestDxl::followsChangesByAddress()
+{
+    QFETCH(QStringList, assignments);
+    QFETCH(QString, printed);
+    QFETCH(QString, baud);
+    QFETCH(QString, id);
+    const Outcome outcome = dxl(QStringList{u"write"_s, u"1"_s} + assignments);
+    QCOMPARE(outcome.err, QString());
+    QCOMPARE(outcome.out, printed);
+    QCOMPARE(outcome.code, 0);
+    QCOMPARE(dxl({u"--baud"_s, baud, u"ping"_s, id}).code, 0);
+}
+
+void TestDxl::changesPlaceAlone()
+{
+    // Where a device is after several of its registers changed at once is not looked for.
+    const Outcome refused = dxl({u"write"_s, u"1"_s, u"led=1"_s, u"7:2=0x0305"_s});
+    QCOMPARE(refused.code, 2);
+    QCOMPARE(refused.out, QString());
+    QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"write 7:1 by itself"), qPrintable(refused.err));
+    QCOMPARE(readBack(u"65:1"_s), u"65:1 = 0 (0x00)"_s);
+    QCOMPARE(dxl({u"write"_s, u"1"_s, u"7:3=01 01 FA"_s}).code, 2); // a number, as 1 to 4 bytes are
+    const Outcome same = dxl({u"write"_s, u"1"_s, u"7:3=0xFA0101"_s});
+    QCOMPARE(same.err, QString());
+    QCOMPARE(same.code, 0);
+}
+
+void TestDxl::saysWhatWasWritten()
+{
+    const auto failing = [this](const QStringList &assignments) {
+        const Outcome outcome = dxl(QStringList{u"write"_s, u"1"_s} + assignments);
+        return isOneSentence(outcome.err) && outcome.code == 1 ? outcome.err.trimmed() : u"?"_s + outcome.err;
+    };
+    const QString alone = failing({u"2000:1=1"_s});
+    QVERIFY2(!alone.contains(u"written"), qPrintable(alone));
+    const QString first = failing({u"2000:1=1"_s, u"led=1"_s});
+    QVERIFY2(first.endsWith(u"; nothing was written before it"), qPrintable(first));
+    const QString third = failing({u"led=1"_s, u"Profile Velocity=5"_s, u"2000:1=1"_s, u"torque_enable=1"_s});
+    QVERIFY2(third.endsWith(u"; written before it: led, Profile Velocity"), qPrintable(third));
+}
+
 void TestDxl::silentByStatusReturnLevel()
 {
     QCOMPARE(dxl({u"write"_s, u"1"_s, u"status_return_level=1"_s}).code, 0);
     QCOMPARE(dxl({u"write"_s, u"1"_s, u"led=1"_s}).out, u"LED = 1 (On)\n"_s);
-    // At level 0 nothing can be read back, which is said, and the way out works.
-    dxl({u"write"_s, u"1"_s, u"68:1=0"_s});
+}
+
+void TestDxl::muteDevice()
+{
+    // At level 0 nothing can be read back: what was sent is not called done, nor failed.
+    const Outcome last = dxl({u"write"_s, u"1"_s, u"led=1"_s, u"68:1=0"_s, u"led=0"_s});
+    QCOMPARE(last.code, 3);
+    QCOMPARE(last.out, u"LED = 1 (On)\n"_s); // before it fell silent
     QCOMPARE(dxl({u"ping"_s, u"1"_s}).code, 0);
-    const Outcome mute = dxl({u"read"_s, u"1"_s, u"led"_s});
-    QCOMPARE(mute.code, 1);
-    QVERIFY2(isOneSentence(mute.err) && mute.err.contains(u"Status Return Level"), qPrintable(mute.err));
-    QVERIFY2(dxl({u"write"_s, u"1"_s, u"status_return_level=2"_s}).code == 0, "back to level 2");
+    const Outcome read = dxl({u"read"_s, u"1"_s, u"led"_s});
+    QCOMPARE(read.code, 1);
+    QVERIFY2(isOneSentence(read.err) && read.err.contains(u"Status Return Level 0"), qPrintable(read.err));
+    QVERIFY2(read.err.contains(u"write status_return_level=1 first"), qPrintable(read.err));
+
+    const Outcome sent = dxl({u"write"_s, u"1"_s, u"led=1"_s, u"Profile Velocity=7"_s});
+    QCOMPARE(sent.code, 3);
+    QCOMPARE(sent.out, QString()); // what is printed has been read back
+    QCOMPARE(sent.err.count(u"sent, but not confirmed: "), 2);
+    const Outcome document = dxl({u"--json"_s, u"write"_s, u"1"_s, u"goal_pwm=5"_s});
+    QCOMPARE(document.code, 3);
+    QCOMPARE(document.out, u"{\"id\":1,\"field\":\"Goal PWM\",\"address\":100,\"sent\":5,\"confirmed\":false}\n"_s);
+
+    const Outcome out = dxl({u"write"_s, u"1"_s, u"status_return_level=2"_s}); // the way out
+    QCOMPARE(out.err, QString());
+    QCOMPARE(out.code, 0);
     QCOMPARE(readBack(u"led"_s), u"LED = 1 (On)"_s);
+    QCOMPARE(readBack(u"112:4"_s), u"112:4 = 7 (0x00000007)"_s);
+}
+
+void TestDxl::muteDeviceKeepsItsPlace()
+{
+    // Whether EEPROM is free and where the device is afterwards could not be seen.
+    dxl({u"write"_s, u"1"_s, u"68:1=0"_s});
+    for (const QString &assignment : {u"ID=5"_s, u"7:1=5"_s, u"8:1=3"_s, u"return_delay_time=0"_s}) {
+        const Outcome refused = dxl({u"write"_s, u"1"_s, assignment});
+        QCOMPARE(refused.code, 1);
+        QVERIFY2(isOneSentence(refused.err), qPrintable(refused.err));
+        QVERIFY2(refused.err.contains(u"write status_return_level=1 first"), qPrintable(refused.err));
+        QCOMPARE(dxl({u"ping"_s, u"1"_s}).code, 0);
+    }
 }
 
 void TestDxl::showsPackets()

@@ -56,6 +56,7 @@ void TestDxlPorts::usage_data()
     QTest::newRow("ID a word") << u"--port /dev/null ping one"_s << u"one"_s;
     QTest::newRow("baud zero") << u"--port /dev/null --baud 0 ping 1"_s << u"0"_s;
     QTest::newRow("bauds") << u"--port /dev/null scan --bauds 57600,fast"_s << u"fast"_s;
+    QTest::newRow("bauds empty") << u"--port /dev/null scan --bauds \"\""_s << u"--bauds"_s;
     QTest::newRow("IDs turned") << u"--port /dev/null scan --ids 9-3"_s << u"9-3"_s;
     QTest::newRow("IDs too far") << u"--port /dev/null scan --ids 0-253"_s << u"0-253"_s;
     QTest::newRow("nothing to read") << u"--port /dev/null read 1"_s << u"REGISTER"_s;
@@ -68,7 +69,9 @@ void TestDxlPorts::usage()
 {
     QFETCH(QString, line);
     QFETCH(QString, says);
-    const Outcome outcome = dxl(line.split(u' ', Qt::SkipEmptyParts));
+    QStringList arguments = line.split(u' ', Qt::SkipEmptyParts);
+    arguments.replaceInStrings(u"\"\""_s, QString()); // an argument without a character
+    const Outcome outcome = dxl(arguments);
     QCOMPARE(outcome.code, 2);
     QCOMPARE(outcome.out, QString());
     QVERIFY2(outcome.err.startsWith(u"dxl: ") && outcome.err.count(u'\n') == 1, qPrintable(outcome.err));
@@ -84,6 +87,7 @@ void TestDxlPorts::help()
         QVERIFY(outcome.out.contains(u"dxl"));
     }
     QVERIFY(dxl({u"write"_s, u"--help"_s}).out.contains(u"90deg"));
+    QVERIFY(dxl({u"--help"_s}).out.contains(u"3 sent, but not confirmed"));
 }
 
 void TestDxlPorts::wrongPort_data()
@@ -92,6 +96,7 @@ void TestDxlPorts::wrongPort_data()
     QTest::addColumn<QString>("says");
     QTest::newRow("missing") << m_directory.filePath(u"none"_s) << u"no port"_s;
     QTest::newRow("no serial port") << u"/dev/null"_s << u"not a serial port"_s;
+    QTest::newRow("the window's simulated bus") << u"sim"_s << u"pass the path that it prints"_s;
     QTest::newRow("folder") << m_directory.path() << u"not a serial port"_s;
 }
 

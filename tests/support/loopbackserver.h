@@ -23,6 +23,7 @@ public:
     void hangUp();
     void stopListening();
 
+    static bool hasIpv6();                    ///< containers may be without
     static quint16 freePort();                ///< nobody listens there now
     static bool isListenedAt(quint16 port);   ///< found out without connecting
 

@@ -102,6 +102,18 @@ void LoopbackServer::stopListening()
         ::close(std::exchange(m_listener, -1));
 }
 
+bool LoopbackServer::hasIpv6()
+{
+    sockaddr_in6 where{};
+    where.sin6_family = AF_INET6;
+    where.sin6_addr = in6addr_loopback;
+    const int probe = ::socket(AF_INET6, SOCK_STREAM | SOCK_CLOEXEC, 0);
+    const bool has = probe >= 0 && ::bind(probe, reinterpret_cast<sockaddr *>(&where), sizeof where) == 0;
+    if (probe >= 0)
+        ::close(probe);
+    return has;
+}
+
 quint16 LoopbackServer::freePort()
 {
     return LoopbackServer().m_port;
