@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr LineTime Server = 45ms;         ///< its adapter's latency (16), its gathering of bytes (20), scheduling
+constexpr LineTime Server = 60ms;         ///< its adapter's latency (16), its gathering of bytes (20), scheduling on both sides
 constexpr LineTime LongestAllowance = 1s; ///< whatever connecting took
 constexpr LineTime FirstLook = 100ms;     ///< a server that can't open its port ends the connection within that
 constexpr LineTime AgreementLimit = 3s;
