@@ -41,12 +41,12 @@ void adviseAfterSilence(const Work &work, const std::vector<int> &tried)
     const bool serversRate = !work.bus.line().canSetBaudRate();
     QString text = QStringLiteral("nobody answered at %1, IDs %2 to %3")
                        .arg(serversRate ? QStringLiteral("the server's rate") : names(tried) + QStringLiteral(" bps"))
-                       .arg(options.ids.first).arg(options.ids.last);
-    text += serversRate
-        ? QStringLiteral("; is it that of the devices, and are they powered?")
-        : tried.size() > 1
-        ? QStringLiteral("; is the bus powered and connected?")
-        : QStringLiteral("; to look at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
+                       .arg(options.ids.first)
+                       .arg(options.ids.last);
+    text += serversRate ? QStringLiteral("; is it that of the devices, and are they powered?")
+            : tried.size() > 1
+                ? QStringLiteral("; is the bus powered and connected?")
+                : QStringLiteral("; to look at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
     work.output.note(text);
 }
 
@@ -75,8 +75,8 @@ ExitCode scanCommand(const Work &work)
     std::vector<int> bauds = work.options.bauds;
     if (!work.bus.line().canSetBaudRate()) {
         if (bauds.size() > 1)
-            work.output.note(QStringLiteral("the rate of %1 is the server's: only that one is scanned")
-                                 .arg(work.bus.line().name()));
+            work.output.note(
+                QStringLiteral("the rate of %1 is the server's: only that one is scanned").arg(work.bus.line().name()));
         bauds = {work.bus.line().baudRate()};
     }
     for (const int baud : bauds) {

@@ -24,8 +24,8 @@ public:
     bool knows(const QString &name) const override;
     void prepare(const QString &name) override; ///< starts the demo, once; it then runs as long as this
     Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;
-    Result<std::unique_ptr<Line>> openUnless(
-        const std::atomic<bool> &cancel, const QString &name, int baudRate) override;
+    Result<std::unique_ptr<Line>> openUnless(const std::atomic<bool> &cancel, const QString &name,
+                                             int baudRate) override;
     std::vector<PortInfo> ports() const override;
 
     sim::Demo *demo() const { return m_demo.get(); } ///< nullptr before the first "sim"

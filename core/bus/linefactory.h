@@ -24,8 +24,7 @@ public:
     /// On the thread that will use the line. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
     virtual Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) = 0;
     /// The same for lines that may take seconds to open: fails with Cancelled soon after `cancel` is set.
-    virtual Result<std::unique_ptr<Line>> openUnless(
-        const std::atomic<bool> &cancel, const QString &name, int baudRate)
+    virtual Result<std::unique_ptr<Line>> openUnless(const std::atomic<bool> &cancel, const QString &name, int baudRate)
     {
         Q_UNUSED(cancel)
         return open(name, baudRate);

@@ -48,7 +48,8 @@ Error nameServerSilent(const QString &port, const QString &host);
 Error hostSilent(const QString &port, const QString &host, LineTime waited);
 Error hostUnreachable(const QString &port, const QString &host, const QString &reason);
 Error connectionRefused(const QString &port);
-Error connectionEnded(const QString &port, const QString &words); ///< at once; `words`: what the server said, or nothing
+Error connectionEnded(const QString &port,
+                      const QString &words); ///< at once; `words`: what the server said, or nothing
 Error connectionLost(const QString &port);
 Error notRfc2217(const QString &port);
 Error rateNotConfirmed(const QString &port, int wanted);

@@ -16,8 +16,7 @@ constexpr int HighestBaud = 100'000'000;
 /// Digits alone, within 1..highest; else 0.
 int number(QStringView text, int highest)
 {
-    if (text.isEmpty() || text.size() > 9
-        || !std::ranges::all_of(text, [](QChar c) { return c >= u'0' && c <= u'9'; }))
+    if (text.isEmpty() || text.size() > 9 || !std::ranges::all_of(text, [](QChar c) { return c >= u'0' && c <= u'9'; }))
         return 0;
     const int value = text.toInt();
     return value <= highest ? value : 0;
@@ -63,9 +62,8 @@ Result<NetworkAddress> NetworkAddress::parse(const QString &name)
     address.kind = raw ? Kind::Raw : Kind::Rfc2217;
     QStringView rest = QStringView(name).sliced(raw ? RawScheme.size() : Rfc2217Scheme.size());
     if (const qsizetype query = rest.indexOf(u'?'); raw && query >= 0) {
-        address.serverBaud = rest.sliced(query).startsWith(BaudQuery)
-            ? number(rest.sliced(query + BaudQuery.size()), HighestBaud)
-            : 0;
+        address.serverBaud =
+            rest.sliced(query).startsWith(BaudQuery) ? number(rest.sliced(query + BaudQuery.size()), HighestBaud) : 0;
         if (address.serverBaud == 0)
             return tl::unexpected(messages::addressMalformed(name));
         rest = rest.first(query);

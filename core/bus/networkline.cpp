@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr LineTime Server = 60ms;         ///< its adapter's latency (16), its gathering of bytes (20), scheduling on both sides
+constexpr LineTime Server = 60ms; ///< its adapter's latency (16), its gathering of bytes (20), scheduling on both sides
 constexpr LineTime LongestAllowance = 1s; ///< whatever connecting took
 constexpr LineTime FirstLook = 100ms;     ///< a server that can't open its port ends the connection within that
 constexpr LineTime AgreementLimit = 3s;
@@ -20,7 +20,7 @@ constexpr LineTime RateLimit = 1s;
 constexpr LineTime CancelInterval = 20ms;
 constexpr double Tolerance = 0.03; ///< what UARTs bear
 constexpr std::size_t WordsAtMost = 80;
-constexpr int DiscardAtMost = 16;  ///< reads: who sends without end is not waited for
+constexpr int DiscardAtMost = 16; ///< reads: who sends without end is not waited for
 
 /// What a server says before it hangs up, fit to be shown.
 QString wordsIn(ByteView bytes)
@@ -38,8 +38,8 @@ bool isNear(int made, int wanted)
 
 } // namespace
 
-Result<std::unique_ptr<NetworkLine>> NetworkLine::open(
-    const QString &name, int baudRate, const NetworkOptions &options, const std::atomic<bool> &cancel)
+Result<std::unique_ptr<NetworkLine>> NetworkLine::open(const QString &name, int baudRate, const NetworkOptions &options,
+                                                       const std::atomic<bool> &cancel)
 {
     const Result<NetworkAddress> address = NetworkAddress::parse(name);
     if (!address)
@@ -56,8 +56,7 @@ Result<std::unique_ptr<NetworkLine>> NetworkLine::open(
 NetworkLine::NetworkLine(QString name, posix::TcpSocket socket, const NetworkOptions &options)
     : m_name(std::move(name))
     , m_socket(std::move(socket))
-    , m_hostAllowance(
-          options.hostAllowance.value_or(std::min(Server + 4 * m_socket.roundTrip(), LongestAllowance)))
+    , m_hostAllowance(options.hostAllowance.value_or(std::min(Server + 4 * m_socket.roundTrip(), LongestAllowance)))
 {
 }
 
@@ -223,8 +222,8 @@ Result<std::unique_ptr<Line>> NetworkLineFactory::open(const QString &name, int 
     return openUnless(false, name, baudRate);
 }
 
-Result<std::unique_ptr<Line>> NetworkLineFactory::openUnless(
-    const std::atomic<bool> &cancel, const QString &name, int baudRate)
+Result<std::unique_ptr<Line>> NetworkLineFactory::openUnless(const std::atomic<bool> &cancel, const QString &name,
+                                                             int baudRate)
 {
     Result<std::unique_ptr<NetworkLine>> line = NetworkLine::open(name, baudRate, m_options, cancel);
     if (!line)

@@ -15,8 +15,8 @@ class NetworkLine final : public Line
 public:
     /// Fails with PortNotFound, PortBusy, PortUnsuitable, Cancelled. With raw bytes `baudRate` is what the server is
     /// believed to work at, unless the name says it.
-    static Result<std::unique_ptr<NetworkLine>> open(
-        const QString &name, int baudRate, const NetworkOptions &options, const std::atomic<bool> &cancel);
+    static Result<std::unique_ptr<NetworkLine>> open(const QString &name, int baudRate, const NetworkOptions &options,
+                                                     const std::atomic<bool> &cancel);
     ~NetworkLine() override;
 
     QString name() const override { return m_name; }
@@ -47,7 +47,7 @@ private:
     LineTime m_drainedBy{}; ///< when the last packet has surely left the server's port, if nothing answers before
     Bytes m_raw;            ///< as it came, Telnet's commands included
     Bytes m_answer;
-    Bytes m_waiting;        ///< came while a rate was confirmed
+    Bytes m_waiting; ///< came while a rate was confirmed
     std::optional<Error> m_lost;
 };
 

@@ -18,12 +18,12 @@ struct NetworkOptions {
 class NetworkLineFactory final : public LineFactory
 {
 public:
-    explicit NetworkLineFactory(NetworkOptions options = {}) : m_options(options) {}
+    explicit NetworkLineFactory(NetworkOptions options = {}) : m_options(options) { }
 
     bool knows(const QString &name) const override;
     Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) override;
-    Result<std::unique_ptr<Line>> openUnless(
-        const std::atomic<bool> &cancel, const QString &name, int baudRate) override;
+    Result<std::unique_ptr<Line>> openUnless(const std::atomic<bool> &cancel, const QString &name,
+                                             int baudRate) override;
 
 private:
     const NetworkOptions m_options;

@@ -56,8 +56,8 @@ void appendSub(Bytes &to, std::uint8_t command, std::uint8_t value)
 
 Bytes Rfc2217::greeting()
 {
-    return {Iac, Will, ComPort, Iac, Will, Binary, Iac, Do, Binary, Iac, Will, SuppressGoAhead, Iac, Do,
-            SuppressGoAhead};
+    return {Iac, Will, ComPort,         Iac, Will, Binary,         Iac, Do, Binary,
+            Iac, Will, SuppressGoAhead, Iac, Do,   SuppressGoAhead};
 }
 
 Bytes Rfc2217::portSettings()

@@ -40,7 +40,7 @@ QStringList filesOf(const QString &process)
 bool isOtherEnd(const QStringList &files, const QString &path)
 {
     return isPseudoTerminal(path)
-        && std::ranges::any_of(files, [](const QString &file) { return file.endsWith(QLatin1String("/ptmx")); });
+           && std::ranges::any_of(files, [](const QString &file) { return file.endsWith(QLatin1String("/ptmx")); });
 }
 
 Error openError(const QString &name, const QString &path, int number)

@@ -39,8 +39,7 @@ std::vector<PortInfo> lookUp()
         QString text = info.description();
         if (!info.manufacturer().isEmpty() && !text.contains(info.manufacturer()))
             text = text.isEmpty() ? info.manufacturer() : QStringLiteral("%1 (%2)").arg(text, info.manufacturer());
-        ports.push_back(
-            {info.systemLocation(), text, info.serialNumber(), usbIdentity(info.portName()).identity});
+        ports.push_back({info.systemLocation(), text, info.serialNumber(), usbIdentity(info.portName()).identity});
     }
     std::ranges::stable_sort(ports, [](const PortInfo &a, const PortInfo &b) {
         return isUsb(a.name) != isUsb(b.name) ? isUsb(a.name) : a.name < b.name;

@@ -51,10 +51,10 @@ Lookup lookUp(const std::string &host, const std::string &port, int flags)
     return {error, error == 0 ? Addresses(first, ::freeaddrinfo) : Addresses()};
 }
 
-/// A name server may take half a minute to say nothing, and getaddrinfo can't be ended: it gets a thread of its own, that
+/// A name server may take half a minute to say nothing, and getaddrinfo can't be ended: it has its own thread, that
 /// is left behind where nobody wants to know any more.
-Result<Addresses> resolve(
-    const QString &name, const NetworkAddress &address, LineTime deadline, const std::atomic<bool> &cancel)
+Result<Addresses> resolve(const QString &name, const NetworkAddress &address, LineTime deadline,
+                          const std::atomic<bool> &cancel)
 {
     const std::string host = address.host.toStdString();
     const std::string port = std::to_string(address.port);
@@ -109,8 +109,8 @@ bool isConnectedToItself(int descriptor)
     sockaddr_storage here{}, there{};
     socklen_t sizeHere = sizeof here, sizeThere = sizeof there;
     return ::getsockname(descriptor, reinterpret_cast<sockaddr *>(&here), &sizeHere) == 0
-        && ::getpeername(descriptor, reinterpret_cast<sockaddr *>(&there), &sizeThere) == 0 && sizeHere == sizeThere
-        && std::memcmp(&here, &there, sizeHere) == 0;
+           && ::getpeername(descriptor, reinterpret_cast<sockaddr *>(&there), &sizeThere) == 0 && sizeHere == sizeThere
+           && std::memcmp(&here, &there, sizeHere) == 0;
 }
 
 Error connectError(const QString &name, const NetworkAddress &address, int error, LineTime limit)
@@ -155,8 +155,8 @@ LineTime TcpSocket::now()
     return std::chrono::duration_cast<LineTime>(std::chrono::steady_clock::now().time_since_epoch());
 }
 
-Result<TcpSocket> TcpSocket::connect(
-    const QString &name, const NetworkAddress &address, LineTime limit, const std::atomic<bool> &cancel)
+Result<TcpSocket> TcpSocket::connect(const QString &name, const NetworkAddress &address, LineTime limit,
+                                     const std::atomic<bool> &cancel)
 {
     const LineTime deadline = now() + limit;
     const Result<Addresses> addresses = resolve(name, address, deadline, cancel);
@@ -170,8 +170,8 @@ Result<TcpSocket> TcpSocket::connect(
         const LineTime begin = now();
         TcpSocket socket(openSocket(*each));
         error = socket.m_descriptor < 0
-            ? errno
-            : connectTo(socket.m_descriptor, *each, begin + (deadline - begin) / left, cancel);
+                    ? errno
+                    : connectTo(socket.m_descriptor, *each, begin + (deadline - begin) / left, cancel);
         if (error == 0 && isConnectedToItself(socket.m_descriptor))
             error = ECONNREFUSED;
         if (error == 0) {

@@ -15,7 +15,7 @@ public:
     /// Looks the host up and connects within `limit`, each of its addresses in turn; looks at `cancel` every 20 ms.
     /// Fails with PortNotFound, Cancelled; `name` is for the messages.
     static Result<TcpSocket> connect(const QString &name, const NetworkAddress &address, LineTime limit,
-        const std::atomic<bool> &cancel);
+                                     const std::atomic<bool> &cancel);
 
     TcpSocket(TcpSocket &&other) noexcept;
     TcpSocket &operator=(TcpSocket &&) = delete;

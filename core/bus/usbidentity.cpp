@@ -25,7 +25,8 @@ UsbIdentity usbIdentity(const QString &portName, const QString &ports)
     if (folder.path().isEmpty() || folder.path() == QLatin1String("."))
         return {};
     QString place;
-    for (int level = 0; level < Levels; ++level, folder.setPath(QDir::cleanPath(folder.filePath(QStringLiteral(".."))))) {
+    for (int level = 0; level < Levels;
+         ++level, folder.setPath(QDir::cleanPath(folder.filePath(QStringLiteral(".."))))) {
         // One adapter may have several ports: several interfaces, or several ports of one interface.
         for (const QLatin1String name : {QLatin1String("port_number"), QLatin1String("bInterfaceNumber")}) {
             const QString number = attribute(folder, name);
@@ -37,7 +38,7 @@ UsbIdentity usbIdentity(const QString &portName, const QString &ports)
             continue;
         UsbIdentity usb;
         usb.plug = attribute(folder, QStringLiteral("busnum")) + QLatin1Char('-')
-            + attribute(folder, QStringLiteral("devnum"));
+                   + attribute(folder, QStringLiteral("devnum"));
         const QString serial = attribute(folder, QStringLiteral("serial"));
         if (!serial.isEmpty()) {
             const QStringList parts{vendor, attribute(folder, QStringLiteral("idProduct")), serial, place};

@@ -23,10 +23,7 @@ bool isIdle(const LineSession &line)
 } // namespace
 
 Reopener::Reopener(Session &session, PortList &ports, QObject *parent)
-    : QObject(parent)
-    , m_session(session)
-    , m_ports(ports)
-    , m_seen(ports.ports())
+    : QObject(parent), m_session(session), m_ports(ports), m_seen(ports.ports())
 {
     connect(&session, &Session::lineAdded, this, &Reopener::follow);
     connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
@@ -102,11 +99,10 @@ Result<QString> Reopener::whereIs(const LineSession &line) const
     const auto [identity, isLink] = known == m_adapters.end() ? Adapter() : known->second;
     const bool isSame = identityOf(name) == identity;
     // Two of the same number (cheap adapters have such) are nobody in particular.
-    if (!identity.isEmpty() && !isSame && !isLink
-        && std::ranges::count(m_seen, identity, &PortInfo::identity) == 1)
+    if (!identity.isEmpty() && !isSame && !isLink && std::ranges::count(m_seen, identity, &PortInfo::identity) == 1)
         return std::ranges::find(m_seen, identity, &PortInfo::identity)->name;
     const bool isThere = NetworkAddress::isNetworkName(name) || QFileInfo::exists(name)
-        || std::ranges::find(m_seen, name, &PortInfo::name) != m_seen.end();
+                         || std::ranges::find(m_seen, name, &PortInfo::name) != m_seen.end();
     if (!isThere)
         return failure(ErrorKind::PortNotFound, tr("%1 is not plugged in").arg(name));
     if (known != m_adapters.end() && !isSame) {

@@ -21,15 +21,15 @@ public:
     Reopener(Session &session, PortList &ports, QObject *parent = nullptr);
 
     const std::vector<PortInfo> &ports() const { return m_seen; } ///< as of the last look
-    void look();                                                 ///< done by itself once a second
+    void look();                                                  ///< done by itself once a second
 
     /// Whether lost lines are opened without being asked; true at first.
     void setAutomatic(bool automatic) { m_automatic = automatic; }
     bool isAutomatic() const { return m_automatic; }
 
     bool isLost(const LineSession &line) const { return m_lost.contains(&line); }
-    /// The name under which this line's adapter is there now. Fails with PortNotFound; with PortUnsuitable where another
-    /// adapter has taken its name.
+    /// The name under which this line's adapter is there now. Fails with PortNotFound; with PortUnsuitable where
+    /// another adapter has taken its name.
     Result<QString> whereIs(const LineSession &line) const;
     /// At whereIs(). The line's state tells how it went.
     Result<void> reopen(LineSession &line);

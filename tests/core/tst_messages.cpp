@@ -53,27 +53,34 @@ private slots:
         row("unreachable", messages::hostUnreachable(server, host, QStringLiteral("No route to host")),
             QStringLiteral("tcp://pi:4000: pi can't be reached: No route to host"));
         row("connection refused", messages::connectionRefused(server),
-            QStringLiteral("tcp://pi:4000 refused the connection: nothing listens there. Is the serial server running, and "
-                           "the port number right?"));
+            QStringLiteral(
+                "tcp://pi:4000 refused the connection: nothing listens there. Is the serial server running, and "
+                "the port number right?"));
         row("ended at once", messages::connectionEnded(server, {}),
-            QStringLiteral("tcp://pi:4000 ended the connection at once: is its serial port plugged in, and used by nobody "
-                           "else?"));
+            QStringLiteral(
+                "tcp://pi:4000 ended the connection at once: is its serial port plugged in, and used by nobody "
+                "else?"));
         row("ended with words", messages::connectionEnded(server, QStringLiteral("Port already in use")),
-            QStringLiteral("tcp://pi:4000 ended the connection at once (\"Port already in use\"): is its serial port plugged "
-                           "in, and used by nobody else?"));
+            QStringLiteral(
+                "tcp://pi:4000 ended the connection at once (\"Port already in use\"): is its serial port plugged "
+                "in, and used by nobody else?"));
         row("connection lost", messages::connectionLost(server),
             QStringLiteral("the connection to tcp://pi:4000 is lost: the server ended it, or the network is down"));
         row("no RFC 2217", messages::notRfc2217(server),
-            QStringLiteral("tcp://pi:4000 does not let its port be controlled (RFC 2217). If it passes raw bytes on, open it "
-                           "as tcp://"));
+            QStringLiteral(
+                "tcp://pi:4000 does not let its port be controlled (RFC 2217). If it passes raw bytes on, open it "
+                "as tcp://"));
         row("rate not confirmed", messages::rateNotConfirmed(server, 57600),
-            QStringLiteral("tcp://pi:4000 did not confirm 57600 baud: the rate is unknown now, so the connection was ended"));
+            QStringLiteral(
+                "tcp://pi:4000 did not confirm 57600 baud: the rate is unknown now, so the connection was ended"));
         row("server's rate", messages::rateIsTheServers(server, 57600),
-            QStringLiteral("tcp://pi:4000 can't be set to 57600 baud: the rate is the server's, changed in its settings, or "
-                           "through rfc2217:// where it offers that"));
+            QStringLiteral(
+                "tcp://pi:4000 can't be set to 57600 baud: the rate is the server's, changed in its settings, or "
+                "through rfc2217:// where it offers that"));
         row("device at the server's rate", messages::deviceRateBound(server),
-            QStringLiteral("the rate of tcp://pi:4000 is the server's, and a device at another one would not be heard there "
-                           "any more; nothing was written"));
+            QStringLiteral(
+                "the rate of tcp://pi:4000 is the server's, and a device at another one would not be heard there "
+                "any more; nothing was written"));
         row("level", messages::silentByLevel(3, 0),
             QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping"));
         row("limit", messages::refused(3, DeviceError::DataLimit),

@@ -39,14 +39,30 @@ private slots:
         QTest::addColumn<QString>("says");
         const QString form = QStringLiteral("is no address");
         const QString number = QStringLiteral("a port is a number from 1 to 65535");
-        for (const char *name : {"tcp://", "tcp://host", "tcp://:4000", "tcp://::1:4000", "tcp://[::1]", "tcp://[::1]4000",
-                 "tcp://[::1:4000", "tcp://[]:4000", "tcp://ho st:4000", "tcp://user@host:4000", "tcp://host/x:4000",
-                 "tcp://host:4000?baud=", "tcp://host:4000?baud=-1", "tcp://host:4000?baud=fast", "tcp://host:4000?rate=9600",
-                 "tcp://host:4000?baud=99999999999", "rfc2217://h\xC3\xB6st:4000", "/dev/ttyUSB0", "http://host:80", ""})
+        for (const char *name : {"tcp://",
+                                 "tcp://host",
+                                 "tcp://:4000",
+                                 "tcp://::1:4000",
+                                 "tcp://[::1]",
+                                 "tcp://[::1]4000",
+                                 "tcp://[::1:4000",
+                                 "tcp://[]:4000",
+                                 "tcp://ho st:4000",
+                                 "tcp://user@host:4000",
+                                 "tcp://host/x:4000",
+                                 "tcp://host:4000?baud=",
+                                 "tcp://host:4000?baud=-1",
+                                 "tcp://host:4000?baud=fast",
+                                 "tcp://host:4000?rate=9600",
+                                 "tcp://host:4000?baud=99999999999",
+                                 "rfc2217://h\xC3\xB6st:4000",
+                                 "/dev/ttyUSB0",
+                                 "http://host:80",
+                                 ""})
             QTest::newRow(name) << form;
         for (const char *name : {"tcp://host:", "tcp://host:0", "tcp://host:65536", "tcp://host:99999999999999999999",
-                 "tcp://host:-1", "tcp://host:+1", "tcp://host:4000/", "tcp://host:http", "tcp://host: 4000",
-                 "rfc2217://host:4000?baud=9600"})
+                                 "tcp://host:-1", "tcp://host:+1", "tcp://host:4000/", "tcp://host:http",
+                                 "tcp://host: 4000", "rfc2217://host:4000?baud=9600"})
             QTest::newRow(name) << number;
     }
     void wrong()

@@ -234,7 +234,7 @@ private slots:
         QVERIFY(wire.line->canSetBaudRate());
         QCOMPARE(wire.line->baudRate(), 1'000'000);
         const QString said = hex::text(wire.heard);
-        QVERIFY2(said.startsWith(QStringLiteral("FF FB 2C ")), qPrintable(said)); // WILL COM-PORT-OPTION
+        QVERIFY2(said.startsWith(QStringLiteral("FF FB 2C ")), qPrintable(said));          // WILL COM-PORT-OPTION
         QVERIFY2(said.contains(QStringLiteral("FF FA 2C 02 08 FF F0")), qPrintable(said)); // 8 data bits
         QVERIFY2(said.contains(QStringLiteral("FF FA 2C 01 00 0F 42 40 FF F0")), qPrintable(said));
     }
@@ -291,7 +291,8 @@ private slots:
         QCOMPARE(wire.line->baudRate(), fine ? 1'000'000 : 57600);
         if (!fine) {
             QCOMPARE(set.error().kind, ErrorKind::PortUnsuitable);
-            QVERIFY(hex::text(again).startsWith(QStringLiteral("FF FA 2C 01 00 00 E1 00 FF F0"))); // back to the old one
+            QVERIFY(
+                hex::text(again).startsWith(QStringLiteral("FF FA 2C 01 00 00 E1 00 FF F0"))); // back to the old one
         }
         wire.line->discardInput();
         wire.server.write({0x33});
@@ -307,7 +308,8 @@ private slots:
         const Result<void> set = wire.line->setBaudRate(1'000'000);
         QVERIFY(!set);
         QCOMPARE(set.error().kind, ErrorKind::PortLost);
-        QVERIFY2(set.error().text.contains(QStringLiteral("did not confirm 1000000 baud")), qPrintable(set.error().text));
+        QVERIFY2(set.error().text.contains(QStringLiteral("did not confirm 1000000 baud")),
+                 qPrintable(set.error().text));
         QCOMPARE(wire.line->write(Bytes{1}).error(), set.error()); // nothing goes out at a rate nobody knows
     }
 

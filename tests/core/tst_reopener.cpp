@@ -172,8 +172,9 @@ private slots:
         QTRY_VERIFY(line.bus().isStopped());
         QTRY_VERIFY(m_bench->stop.isConfirmed()); // asked anew: nobody knows what went on meanwhile
         bool refused = false;
-        m_bench->commands.setTorque({line.devices().front().get()}, true,
-            [&refused](const Result<void> &result) { refused = !result && result.error().kind == ErrorKind::Stopped; });
+        m_bench->commands.setTorque({line.devices().front().get()}, true, [&refused](const Result<void> &result) {
+            refused = !result && result.error().kind == ErrorKind::Stopped;
+        });
         QTRY_VERIFY(refused);
     }
 
@@ -193,7 +194,7 @@ private slots:
         QVERIFY(answers(other));
         m_bench->stop.press(); // of the lost one's devices it says that they are not confirmed
         QTRY_VERIFY2(m_bench->stop.report().startsWith(u"Torque is off on 2 devices. Not confirmed:"),
-            qPrintable(m_bench->stop.report()));
+                     qPrintable(m_bench->stop.report()));
         QVERIFY(!m_bench->stop.isConfirmed());
         m_bench->lines.plug({port(First, u"A"_s), port(Second, u"B"_s)});
         m_reopener->look();
@@ -217,7 +218,8 @@ private:
     bool answers(LineSession &line)
     {
         std::optional<Result<void>> outcome;
-        m_bench->commands.readAll(*line.devices().front(), [&outcome](const Result<void> &result) { outcome = result; });
+        m_bench->commands.readAll(*line.devices().front(),
+                                  [&outcome](const Result<void> &result) { outcome = result; });
         return QTest::qWaitFor([&outcome] { return outcome.has_value(); }) && outcome->has_value();
     }
 

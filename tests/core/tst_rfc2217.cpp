@@ -47,14 +47,15 @@ private slots:
     void says()
     {
         QCOMPARE(hex::text(Rfc2217::greeting()),
-            QStringLiteral("FF FB 2C FF FB 00 FF FD 00 FF FB 03 FF FD 03")); // WILL 44, binary and no go-ahead both ways
+                 QStringLiteral(
+                     "FF FB 2C FF FB 00 FF FD 00 FF FB 03 FF FD 03")); // WILL 44, binary and no go-ahead both ways
         QCOMPARE(hex::text(Rfc2217().requestRate(57600)),
-            QStringLiteral("FF FA 2C 01 00 00 E1 00 FF F0 FF FA 2C 0C 01 FF F0"));
+                 QStringLiteral("FF FA 2C 01 00 00 E1 00 FF F0 FF FA 2C 0C 01 FF F0"));
         QCOMPARE(hex::text(Rfc2217().requestRate(65'280)), // 00 00 FF 00
-            QStringLiteral("FF FA 2C 01 00 00 FF FF 00 FF F0 FF FA 2C 0C 01 FF F0"));
+                 QStringLiteral("FF FA 2C 01 00 00 FF FF 00 FF F0 FF FA 2C 0C 01 FF F0"));
         QCOMPARE(hex::text(Rfc2217::portSettings()),
-            QStringLiteral("FF FA 2C 02 08 FF F0 FF FA 2C 03 01 FF F0 FF FA 2C 04 01 FF F0 FF FA 2C 05 01 FF F0 "
-                           "FF FA 2C 05 0E FF F0 FF FA 2C 0A 00 FF F0 FF FA 2C 0B 00 FF F0"));
+                 QStringLiteral("FF FA 2C 02 08 FF F0 FF FA 2C 03 01 FF F0 FF FA 2C 04 01 FF F0 FF FA 2C 05 01 FF F0 "
+                                "FF FA 2C 05 0E FF F0 FF FA 2C 0A 00 FF F0 FF FA 2C 0B 00 FF F0"));
         QCOMPARE(hex::text(Rfc2217::escaped(hex::bytes("FF FF FD 00 01"))), QStringLiteral("FF FF FF FF FD 00 01"));
         QVERIFY(Rfc2217::escaped({}).empty());
     }
@@ -65,7 +66,8 @@ private slots:
         QTest::addColumn<QString>("data");
         QTest::addColumn<QString>("answer");
         const auto row = [](const char *name, const char *stream, const char *data, const char *answer) {
-            QTest::newRow(name) << QString::fromLatin1(stream) << QString::fromLatin1(data) << QString::fromLatin1(answer);
+            QTest::newRow(name) << QString::fromLatin1(stream) << QString::fromLatin1(data)
+                                << QString::fromLatin1(answer);
         };
         row("data", "01 02 03", "01 02 03", "");
         row("doubled FF", "FF FF FF FF FD 00", "FF FF FD 00", "");

@@ -61,7 +61,8 @@ private slots:
     {
         QVERIFY(QDir(m_root->path()).mkpath(u"devices/platform/serial8250/tty"_s));
         QVERIFY(QDir(m_root->path()).mkpath(u"class/tty/ttyS0"_s));
-        QVERIFY(QFile::link(m_root->filePath(u"devices/platform/serial8250"_s), m_root->filePath(u"class/tty/ttyS0/device"_s)));
+        QVERIFY(QFile::link(m_root->filePath(u"devices/platform/serial8250"_s),
+                            m_root->filePath(u"class/tty/ttyS0/device"_s)));
         for (const QString &name : {u"ttyS0"_s, u"ttyUSB9"_s, QString()}) {
             QCOMPARE(usbIdentity(name, ports()).identity, QString());
             QCOMPARE(usbIdentity(name, ports()).plug, QString());
@@ -90,7 +91,7 @@ private:
         write(folder + u"devnum"_s, QString::number(number));
     }
     void port(const QString &name, const QString &place, const QString &below, const QString &interface,
-        const QString &number)
+              const QString &number)
     {
         const QString folder = u"devices/"_s + place + u'/' + below;
         QVERIFY(QDir(m_root->path()).mkpath(folder));

@@ -82,7 +82,8 @@ void TestDxlSer2net::initTestCase()
 void TestDxlSer2net::init()
 {
     auto bus = std::make_unique<sim::SimulatedBus>(m_catalog);
-    const auto specs = sim::parseServoSpecs(u"XM430-W350@57600:1,XL430-W250@57600:2,XL330-M288/52@1000000:7"_s, m_catalog);
+    const auto specs =
+        sim::parseServoSpecs(u"XM430-W350@57600:1,XL430-W250@57600:2,XL330-M288/52@1000000:7"_s, m_catalog);
     QVERIFY(specs);
     for (const sim::ServoSpec &spec : *specs)
         QVERIFY(bus->add(spec));
@@ -107,7 +108,7 @@ int TestDxlSer2net::writesOnTheWire()
             const bool whole = entry.fromController && entry.bytes.size() > 7;
             const int instruction = whole ? entry.bytes[7] : 0;
             count += instruction == 0x03 || instruction == 0x04 || instruction == 0x06 || instruction == 0x83
-                || instruction == 0x93;
+                     || instruction == 0x93;
         }
     });
     return count;
@@ -253,7 +254,8 @@ void TestDxlSer2net::noSerialPortBehindIt()
     m_server.reset(); // the adapter is unplugged, the server runs on
     const Outcome outcome = dxl({u"ping"_s, u"1"_s});
     QCOMPARE(outcome.code, 1);
-    QVERIFY2(isOneSentence(outcome.err) && outcome.err.contains(u"ended the connection at once"), qPrintable(outcome.err));
+    QVERIFY2(isOneSentence(outcome.err) && outcome.err.contains(u"ended the connection at once"),
+             qPrintable(outcome.err));
 }
 
 DYNASCOPE_CORE_TEST(TestDxlSer2net)

@@ -115,7 +115,8 @@ private slots:
         LineSession &line = openAndScan(net.address());
         const std::size_t devices = line.devices().size();
         bool on = false;
-        m_commands->setTorque({line.devices().front().get()}, true, [&on](const Result<void> &r) { on = r.has_value(); });
+        m_commands->setTorque({line.devices().front().get()}, true,
+                              [&on](const Result<void> &r) { on = r.has_value(); });
         QTRY_VERIFY_WITH_TIMEOUT(on, Patience);
         m_stop->press();
         QTRY_VERIFY_WITH_TIMEOUT(m_stop->isConfirmed(), Patience);
@@ -186,8 +187,8 @@ private:
         [&] {
             QTRY_COMPARE_WITH_TIMEOUT(line.state(), BusThread::State::Open, Patience);
             bool done = false;
-            const auto connection = connect(m_scanner.get(), &Scanner::finished, this,
-                [this, &done](int, const QString &trouble) {
+            const auto connection =
+                connect(m_scanner.get(), &Scanner::finished, this, [this, &done](int, const QString &trouble) {
                     m_trouble = trouble;
                     done = true;
                 });

@@ -23,9 +23,9 @@ public:
     void hangUp();
     void stopListening();
 
-    static bool hasIpv6();                    ///< containers may be without
-    static quint16 freePort();                ///< nobody listens there now
-    static bool isListenedAt(quint16 port);   ///< found out without connecting
+    static bool hasIpv6();                  ///< containers may be without
+    static quint16 freePort();              ///< nobody listens there now
+    static bool isListenedAt(quint16 port); ///< found out without connecting
 
 private:
     bool wait(int descriptor) const;

@@ -16,9 +16,9 @@ public:
     Ser2net(const QString &device, Kind kind);
     ~Ser2net() { kill(); }
 
-    QString address() const; ///< "tcp://127.0.0.1:40123"
-    void start();            ///< after kill(), at the same address
-    void kill();             ///< as a crash or a power cut would; waits for the end
+    QString address() const;            ///< "tcp://127.0.0.1:40123"
+    void start();                       ///< after kill(), at the same address
+    void kill();                        ///< as a crash or a power cut would; waits for the end
     void moveTo(const QString &device); ///< what the next start() serves
 
 private:

@@ -29,8 +29,7 @@ QString program()
 
 } // namespace
 
-Ser2net::Ser2net(const QString &device, Kind kind)
-    : m_kind(kind), m_port(LoopbackServer::freePort()), m_device(device)
+Ser2net::Ser2net(const QString &device, Kind kind) : m_kind(kind), m_port(LoopbackServer::freePort()), m_device(device)
 {
     start();
 }

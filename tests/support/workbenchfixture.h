@@ -81,7 +81,7 @@ private:
     {
     public:
         VirtualLine(const Catalog &catalog, const QString &servos, QString name, int baudRate,
-            const std::atomic<bool> &unplugged, std::shared_ptr<const std::atomic<bool>> out)
+                    const std::atomic<bool> &unplugged, std::shared_ptr<const std::atomic<bool>> out)
             : m_bus(catalog), m_name(std::move(name)), m_unplugged(unplugged), m_out(std::move(out))
         {
             const auto specs = sim::parseServoSpecs(servos, catalog);

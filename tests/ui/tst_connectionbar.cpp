@@ -122,7 +122,8 @@ private slots:
         auto *ports = find<PortCombo>("portCombo");
         ports->setEditText(QStringLiteral("/dev/tt"));
         m_bench->lines.plug({port(QStringLiteral("/dev/ttyACM0"), QStringLiteral("C")),
-            port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("A")), port(QStringLiteral("/dev/ttyUSB1"), QStringLiteral("B"))});
+                             port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("A")),
+                             port(QStringLiteral("/dev/ttyUSB1"), QStringLiteral("B"))});
         QTRY_COMPARE(ports->count(), 3);
         QCOMPARE(ports->itemText(0), QStringLiteral("/dev/ttyACM0"));
         QCOMPARE(ports->itemText(2), QStringLiteral("/dev/ttyUSB1"));
@@ -168,7 +169,8 @@ private slots:
         QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Reconnect"));
         m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("B"))});
         QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
-        QVERIFY2(m_said.last().startsWith(QStringLiteral("Another adapter is at /dev/ttyUSB0")), qPrintable(m_said.last()));
+        QVERIFY2(m_said.last().startsWith(QStringLiteral("Another adapter is at /dev/ttyUSB0")),
+                 qPrintable(m_said.last()));
         QCOMPARE(m_bench->session.lines().front()->state(), BusThread::State::Lost);
     }
 
@@ -190,7 +192,8 @@ private slots:
         QTest::keyClick(ports->lineEdit(), Qt::Key_Return);
         QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Disconnect"));
         QTRY_COMPARE(find<ElidedLabel>("connectionState")->text(),
-            itsOwn ? QStringLiteral("Connected at the server's rate") : QStringLiteral("Connected at 57\u2009600 bps"));
+                     itsOwn ? QStringLiteral("Connected at the server's rate")
+                            : QStringLiteral("Connected at 57\u2009600 bps"));
         QTRY_VERIFY(!m_bench->scanner.isRunning());
         auto *options = m_bar->findChild<ScanOptions *>();
         QCOMPARE(options->findChild<QListWidget *>(QStringLiteral("scanBauds"))->isVisibleTo(options), !itsOwn);

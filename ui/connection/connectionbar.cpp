@@ -132,7 +132,8 @@ void ConnectionBar::addAll()
     layout->addWidget(m_port, 1);
     auto *servers = new QLabel(tr("Rate is the server's"), m_rate);
     servers->setObjectName(QStringLiteral("serversRate"));
-    servers->setToolTip(tr("A raw TCP connection can't set it. Through rfc2217:// it can be, where the server offers that."));
+    servers->setToolTip(
+        tr("A raw TCP connection can't set it. Through rfc2217:// it can be, where the server offers that."));
     m_rate->addWidget(m_baud);
     m_rate->addWidget(servers);
     m_rate->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
@@ -262,7 +263,8 @@ void ConnectionBar::updateScan()
         return;
     m_progress->setValue(qRound(scanner.progress() * 1000));
     const LineSession *line = m_connector.scannedLine();
-    const QString rate = line && isRateTheServers(line->name()) ? tr("the server's rate") : baudText(scanner.currentBaud());
+    const QString rate =
+        line && isRateTheServers(line->name()) ? tr("the server's rate") : baudText(scanner.currentBaud());
     m_progressText->setText(tr("%1, %n found", nullptr, scanner.found()).arg(rate));
     m_progressText->setToolTip(tr("Scanning at %1").arg(rate));
 }

@@ -28,9 +28,7 @@ QString baudKey(const QString &port)
 } // namespace
 
 Connector::Connector(const Workbench &workbench, QObject *parent)
-    : QObject(parent)
-    , m_workbench(workbench)
-    , m_reopener(workbench.session, workbench.ports)
+    : QObject(parent), m_workbench(workbench), m_reopener(workbench.session, workbench.ports)
 {
     m_reopener.setAutomatic(isReopening());
     connect(&m_reopener, &Reopener::portsChanged, this, &Connector::portsChanged);
@@ -136,9 +134,9 @@ void Connector::onLost(LineSession *line)
         return;
     m_lost.insert(line);
     const QString why = line->bus().error().text;
-    const QString text = (m_reopener.isAutomatic() ? tr("%1 is gone%2. It is opened again when it comes back.")
-                                                   : tr("%1 is gone%2."))
-                             .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
+    const QString text =
+        (m_reopener.isAutomatic() ? tr("%1 is gone%2. It is opened again when it comes back.") : tr("%1 is gone%2."))
+            .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
     emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
                      if (where)
                          reconnect(*where);

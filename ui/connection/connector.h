@@ -40,7 +40,7 @@ public:
 signals:
     void changed(); ///< a line came, went, or is in another state
     void posted(const dynascope::Message &message);
-    void portsChanged(); ///< something was plugged in or pulled out
+    void portsChanged();                                        ///< something was plugged in or pulled out
     void moved(const QString &formerPort, const QString &port); ///< a line's adapter has come back elsewhere
 
 private:

@@ -23,8 +23,9 @@ PortCombo::PortCombo(PortList &ports, QWidget *parent)
     setInsertPolicy(QComboBox::NoInsert);
     setMinimumContentsLength(16);
     setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    setToolTip(tr("Port of the bus: choose one, or type a path, or a serial server: tcp://host:port, rfc2217://host:port "
-                  "(Ctrl+L)"));
+    setToolTip(
+        tr("Port of the bus: choose one, or type a path, or a serial server: tcp://host:port, rfc2217://host:port "
+           "(Ctrl+L)"));
     setAccessibleName(tr("Port"));
     lineEdit()->setPlaceholderText(tr("No port found"));
     connect(this, &QComboBox::editTextChanged, this, &PortCombo::portChanged);
@@ -56,8 +57,8 @@ std::vector<PortCombo::Entry> PortCombo::entries() const
     std::vector<Entry> entries;
     for (const PortInfo &info : m_ports.ports()) {
         const QString tip = info.serialNumber.isEmpty()
-            ? info.description
-            : QStringLiteral("%1 (%2)").arg(info.description, info.serialNumber);
+                                ? info.description
+                                : QStringLiteral("%1 (%2)").arg(info.description, info.serialNumber);
         entries.push_back({info.name, tip});
     }
     for (const QString &name : Connector::recentPorts()) {
@@ -100,7 +101,8 @@ void PortCombo::place(const Entry &entry, int at)
         if (const int elsewhere = findData(entry.name); elsewhere >= 0)
             removeItem(elsewhere);
         const bool simulated = entry.name == QStringLiteral("sim");
-        insertItem(at, icon(simulated ? QStringLiteral("servo") : QStringLiteral("plug")), portText(entry.name), entry.name);
+        insertItem(at, icon(simulated ? QStringLiteral("servo") : QStringLiteral("plug")), portText(entry.name),
+                   entry.name);
     }
     setItemData(at, entry.tip, Qt::ToolTipRole);
 }

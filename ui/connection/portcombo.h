@@ -9,8 +9,8 @@ namespace dynascope {
 
 class PortList;
 
-/// The ports there are, and the serial servers used before; any other path or address can be typed. refresh() brings it up
-/// to date, also while it is open; opening it does.
+/// The ports there are, and the serial servers used before; any other path or address can be typed. refresh() brings it
+/// up to date, also while it is open; opening it does.
 class PortCombo : public QComboBox
 {
     Q_OBJECT

@@ -138,7 +138,8 @@ ScanRange ScanOptions::range(int lastUsedBaud) const
     ScanRange range;
     range.bauds = m_rates->isVisibleTo(this) ? checkedBauds() : std::vector{lastUsedBaud};
     // A line may work at a rate that is in no list; it is the likeliest of all.
-    if (lastUsedBaud > 0 && m_rates->isVisibleTo(this) && std::ranges::find(allBauds(), lastUsedBaud) == allBauds().end())
+    if (lastUsedBaud > 0 && m_rates->isVisibleTo(this)
+        && std::ranges::find(allBauds(), lastUsedBaud) == allBauds().end())
         range.bauds.push_back(lastUsedBaud);
     std::ranges::stable_sort(range.bauds, {}, rank);
     range.firstId = m_firstId->value();

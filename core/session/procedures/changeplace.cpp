@@ -62,7 +62,7 @@ Result<void> writeOnce(Bus &bus, const SpanData &data)
     return bus.settle(2ms, 100ms); // whatever else came of it is looked up, not believed
 }
 
-/// Where the rate is somebody else's, even the one we were told may not be the true one: no device is moved away from it.
+/// Where the rate is somebody else's, even the one we were told may not be true: no device is moved away from it.
 Result<void> rateIsOurs(Bus &bus)
 {
     if (bus.line().canSetBaudRate())
