@@ -125,7 +125,7 @@ void BusWorker::refuse(const QueuedJob &job, const Error &error)
 
 void BusWorker::run()
 {
-    Result<std::unique_ptr<Line>> line = m_factory.open(m_name, m_workingBaud);
+    Result<std::unique_ptr<Line>> line = m_factory.openUnless(m_closing, m_name, m_workingBaud);
     if (!line) {
         end(BusThread::State::Closed, line.error());
         return;

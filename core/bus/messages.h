@@ -44,6 +44,24 @@ Error portFailed(const QString &port, const QString &reason); ///< opening faile
 Error portLost(const QString &port);
 Error rateRefused(const QString &port, int wanted, int made); ///< `made` 0: the port refused it
 
+/// @name Serial servers on the network; `port` is the whole name, "tcp://host:4000"
+/// @{
+Error addressMalformed(const QString &port);
+Error portNumberWrong(const QString &port, const QString &number);
+Error hostUnknown(const QString &port, const QString &host);
+Error nameServerSilent(const QString &port, const QString &host);
+Error hostSilent(const QString &port, const QString &host, LineTime waited);
+Error hostUnreachable(const QString &port, const QString &host, const QString &reason);
+Error connectionRefused(const QString &port);
+Error connectionEnded(const QString &port,
+                      const QString &words); ///< at once; `words`: what the server said, or nothing
+Error connectionLost(const QString &port);
+Error notRfc2217(const QString &port);
+Error rateNotConfirmed(const QString &port, int wanted);
+Error rateIsTheServers(const QString &port, int wanted);
+Error deviceRateBound(const QString &port); ///< a device may not be moved away from the server's rate
+/// @}
+
 QString durationText(LineTime duration); ///< "0.8 ms", "16 ms", "1.2 s"
 
 } // namespace dynascope::messages

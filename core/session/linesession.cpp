@@ -77,9 +77,9 @@ void LineSession::startThread(const QString &name, int baudRate)
     });
 }
 
-void LineSession::reopen()
+void LineSession::reopen(const QString &name)
 {
-    startThread(name(), baudRate());
+    startThread(QString(name.isEmpty() ? this->name() : name), baudRate());
     emit stateChanged();
 }
 

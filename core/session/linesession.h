@@ -27,7 +27,8 @@ public:
     QString name() const { return m_thread->name(); }
     BusThread &bus() const { return *m_thread; } ///< another one after reopen()
     int generation() const { return m_generation; } ///< counts the bus threads; a new one may stand at the old address
-    void reopen();                               ///< a lost line once more, keeping its devices
+    /// A lost line once more, keeping its devices; under another name where its adapter came up elsewhere.
+    void reopen(const QString &name = {});
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
 

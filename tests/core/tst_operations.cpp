@@ -247,7 +247,8 @@ private slots:
             Bus bus(line);
             return exchangetext::untimed(writeVerified(bus, {3, 9, {5}}).error().text);
         };
-        const QString silence = QStringLiteral("device 3 did not answer: nothing was received in time");
+        const QString silence = QStringLiteral("device 3 did not answer: nothing was received in time; nothing else on the "
+                                               "line has answered lately");
         const QString mayBe = QStringLiteral("; the write may have been executed");
         QCOMPARE(verified([](const Bytes &) { return FakeLine::Answer(); }), silence + mayBe);
         // Answers Ping, which proves that nothing older is in flight, and the write, but no Read.

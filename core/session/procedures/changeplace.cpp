@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of ID and baud rate, and Factory Reset: after them the device stands elsewhere.
+#include "core/bus/messages.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/procedures/procedures.h"
 
@@ -106,6 +107,14 @@ Result<Found> changePlace(JobContext &context, const DevicePlace &from, const De
     return found;
 }
 
+/// Where the rate is somebody else's, even the one we were told may not be true: no device is moved away from it.
+Result<void> rateIsOurs(Bus &bus)
+{
+    if (bus.line().canSetBaudRate())
+        return {};
+    return tl::unexpected(messages::deviceRateBound(bus.line().name()));
+}
+
 } // namespace
 
 bool isAt(const Found &found, const DevicePlace &place)
@@ -139,6 +148,8 @@ Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan)
 
 Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan)
 {
+    if (const auto ours = rateIsOurs(context.bus()); !ours)
+        return tl::unexpected(ours.error());
     DevicePlace to = plan.place;
     to.baudRate = plan.newBaudRate;
     return changePlace(context, plan.place, to, {plan.place.id, plan.baudAddress, {plan.code}}, plan.turnTorqueOff);
@@ -147,6 +158,8 @@ Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan)
 Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
 {
     Bus &bus = context.bus();
+    if (const auto ours = rateIsOurs(bus); !ours && plan.option != ResetOption::AllButIdAndBaud)
+        return ours;
     const bool moves = plan.after.id != plan.place.id || plan.after.baudRate != plan.place.baudRate;
     if (moves) {
         if (const auto free = checkFree(context, plan.after); !free)
