@@ -91,6 +91,5 @@ private slots:
     }
 };
 
-Q_DECLARE_METATYPE(dynascope::NetworkAddress)
 DYNASCOPE_CORE_TEST(TestNetworkAddress)
 #include "tst_networkaddress.moc"

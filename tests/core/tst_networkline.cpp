@@ -363,6 +363,5 @@ private slots:
     }
 };
 
-Q_DECLARE_METATYPE(dynascope::Bytes)
 DYNASCOPE_CORE_TEST(TestNetworkLine)
 #include "tst_networkline.moc"

@@ -13,6 +13,8 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
+#include <QScopeGuard>
+#include <QSemaphore>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -238,25 +240,28 @@ private slots:
     void aWaitingScanEndsWithItsLineOrAtStop()
     {
         QFETCH(bool, stop);
-        bool acted = false;
-        const auto act = [&] {
-            LineSession *first = m_connector->scannedLine();
-            const auto open = [](const auto &line) { return line->state() == BusThread::State::Open; };
-            if (acted || !first || m_bench->session.lines().size() < 2
-                || !std::ranges::all_of(m_bench->session.lines(), open))
-                return;
-            acted = true;
-            const auto &lines = m_bench->session.lines();
-            if (stop)
-                m_bench->stop.press();
-            else
-                m_connector->disconnectFrom(*lines[lines[0].get() == first ? 1 : 0]);
-        };
-        connect(m_connector.get(), &Connector::changed, this, act, Qt::QueuedConnection);
-        m_connector->connectTo(QStringLiteral("/dev/ttyUSB0"), 1000000);
-        m_connector->connectTo(QStringLiteral("/dev/ttyUSB1"), 1000000);
-        QTRY_VERIFY(acted && !m_bench->scanner.isRunning());
-        m_connector->disconnect(this);
+        const QString one = QStringLiteral("/dev/ttyUSB0");
+        const QString other = QStringLiteral("/dev/ttyUSB1");
+        QSemaphore go; // until then the first line's scan has not begun
+        m_connector->connectTo(one, 1000000);
+        m_connector->line(one)->bus().run<int>(
+            Priority::Click, nullptr,
+            [&go](JobContext &) -> Result<int> {
+                go.acquire();
+                return 0;
+            },
+            [](const Result<int> &) {});
+        const auto letGo = qScopeGuard([&go] { go.release(); });
+        QTRY_VERIFY(m_bench->scanner.isRunning());
+        m_connector->connectTo(other, 1000000);
+        QTRY_COMPARE(m_connector->line(other)->state(), BusThread::State::Open);
+        QCOMPARE(m_connector->scannedLine(), m_connector->line(one));
+        if (stop)
+            m_bench->stop.press();
+        else
+            m_connector->disconnectFrom(*m_connector->line(other));
+        go.release();
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
         QCoreApplication::processEvents();
         QVERIFY(!m_bench->scanner.isRunning());
         QVERIFY(m_bench->session.devices().size() <= 3);
