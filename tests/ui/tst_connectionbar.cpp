@@ -242,16 +242,16 @@ private slots:
         QFETCH(bool, stop);
         const QString one = QStringLiteral("/dev/ttyUSB0");
         const QString other = QStringLiteral("/dev/ttyUSB1");
-        QSemaphore go; // until then the first line's scan has not begun
+        const auto go = std::make_shared<QSemaphore>(); // until then the first line's scan has not begun
         m_connector->connectTo(one, 1000000);
         m_connector->line(one)->bus().run<int>(
             Priority::Click, nullptr,
-            [&go](JobContext &) -> Result<int> {
-                go.acquire();
+            [go](JobContext &) -> Result<int> {
+                go->acquire();
                 return 0;
             },
             [](const Result<int> &) {});
-        const auto letGo = qScopeGuard([&go] { go.release(); });
+        const auto letGo = qScopeGuard([go] { go->release(); });
         QTRY_VERIFY(m_bench->scanner.isRunning());
         m_connector->connectTo(other, 1000000);
         QTRY_COMPARE(m_connector->line(other)->state(), BusThread::State::Open);
@@ -260,7 +260,7 @@ private slots:
             m_bench->stop.press();
         else
             m_connector->disconnectFrom(*m_connector->line(other));
-        go.release();
+        go->release();
         QTRY_VERIFY(!m_bench->scanner.isRunning());
         QCoreApplication::processEvents();
         QVERIFY(!m_bench->scanner.isRunning());
