@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/operations.h"
 #include "core/bus/poller.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -24,17 +25,10 @@ class TestBusSimulated : public QObject
 {
     Q_OBJECT
 
-    const Catalog &catalog() { return *m_catalog; }
-    std::unique_ptr<Catalog> m_catalog;
+    const Catalog &catalog() { return m_catalog; }
+    const Catalog m_catalog = test::builtInCatalog();
 
 private slots:
-    void initTestCase()
-    {
-        Result<Catalog> loaded = Catalog::builtIn();
-        QVERIFY2(loaded, loaded ? "" : qPrintable(loaded.error().text));
-        m_catalog = std::make_unique<Catalog>(std::move(*loaded));
-    }
-
     void scansAllAtOneRate()
     {
         VirtualBus world(catalog(),

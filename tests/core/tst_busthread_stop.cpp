@@ -4,6 +4,7 @@
 #include "core/bus/poller.h"
 #include "core/bus/stopsequence.h"
 #include "core/session/procedures/atbaud.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/busworld.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
@@ -142,9 +143,6 @@ private slots:
     void initTestCase()
     {
         qRegisterMetaType<std::vector<StopOutcome>>();
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
     }
 
     void writesToEachModelsOwnRegister()
@@ -335,7 +333,7 @@ private:
         QFAIL("nothing was sent");
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestBusThreadStop)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/demoscript.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
 
@@ -14,13 +15,6 @@ class TestDemoScript : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void init()
     {
         m_bus = std::make_unique<SimulatedBus>(m_catalog);
@@ -109,7 +103,7 @@ private:
     Servo &servo(std::size_t index) { return *m_bus->servos()[index]; }
     bool isHeld(std::size_t index) { return m_script->isHeld(servo(index)); }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<SimulatedBus> m_bus;
     std::unique_ptr<DemoScript> m_script;
     std::optional<Client> m_client;

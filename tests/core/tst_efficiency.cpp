@@ -3,6 +3,7 @@
 #include "core/bus/poller.h"
 #include "core/sim/servo.h"
 #include "core/sim/simulatedline.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/testmain.h"
 
 using namespace dynascope;
@@ -122,16 +123,9 @@ class TestEfficiency : public QObject
 {
     Q_OBJECT
 
-    std::unique_ptr<Catalog> m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 
 private slots:
-    void initTestCase()
-    {
-        Result<Catalog> loaded = Catalog::builtIn();
-        QVERIFY2(loaded, loaded ? "" : qPrintable(loaded.error().text));
-        m_catalog = std::make_unique<Catalog>(std::move(*loaded));
-    }
-
     void cycle_data()
     {
         QTest::addColumn<Kind>("kind");
@@ -153,16 +147,16 @@ private slots:
         QFETCH(int, baudRate);
         QFETCH(int, servos);
         // One servo alone gets a Read, whatever it could do: there is nothing to group.
-        const double part = efficiency(*m_catalog, servos == 1 ? Kind::Single : kind, servos, baudRate);
+        const double part = efficiency(m_catalog, servos == 1 ? Kind::Single : kind, servos, baudRate);
         qInfo("%.4f of what the wire allows", part);
         QVERIFY2(part >= 0.98 && part <= 1.02, qPrintable(QString::number(part)));
     }
 
     void aNeedlessWaitShows()
     {
-        QVERIFY(efficiency(*m_catalog, Kind::Fast, 6, 1'000'000) >= 0.98);
-        QVERIFY(efficiency(*m_catalog, Kind::Fast, 6, 1'000'000, 200us) < 0.9);
-        QVERIFY(efficiency(*m_catalog, Kind::Single, 6, 57'600, 1ms) < 0.9);
+        QVERIFY(efficiency(m_catalog, Kind::Fast, 6, 1'000'000) >= 0.98);
+        QVERIFY(efficiency(m_catalog, Kind::Fast, 6, 1'000'000, 200us) < 0.9);
+        QVERIFY(efficiency(m_catalog, Kind::Single, 6, 57'600, 1ms) < 0.9);
     }
 
     void aMissingServoCostsLittle_data()
@@ -181,7 +175,7 @@ private slots:
     {
         QFETCH(Kind, kind);
         QFETCH(int, missing);
-        World world(*m_catalog, kind, 12, 1'000'000);
+        World world(m_catalog, kind, 12, 1'000'000);
         world.simulated.setHostAllowance(21ms);
         LineTime whole{};
         for (int i = 0; i < 50; ++i)
@@ -218,7 +212,7 @@ private slots:
     {
         QFETCH(int, baudRate);
         QFETCH(int, servos);
-        World world(*m_catalog, Kind::Sync, servos, baudRate);
+        World world(m_catalog, Kind::Sync, servos, baudRate);
         const LineTime byteTime = world.line.byteTime();
         const LineTime begin = world.line.now();
         const auto found = scanBaud(world.bus, {0, MaximumId}, {});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/faultmatrix.h"
 #include "tests/support/testmain.h"
 
@@ -144,9 +145,6 @@ class TestFaultMatrixAdapter : public QObject
 private slots:
     void initTestCase()
     {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
         for (const auto &family : {echoes(), latencyAndNoise(), noiseBefore(), lateAnswers()})
             m_cases.insert(m_cases.end(), family.begin(), family.end());
     }
@@ -191,7 +189,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::vector<Case> m_cases;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/faultmatrix.h"
 #include "tests/support/testmain.h"
 
@@ -65,13 +66,6 @@ class TestFaultMatrixCut : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     /// One row each request and place; every byte within.
     void answerCut_data()
     {
@@ -166,7 +160,7 @@ private:
             QTest::newRow(qPrintable(nameOf(kind))) << static_cast<int>(kind);
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::vector<Case> m_cases;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedline.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
 
@@ -54,13 +55,6 @@ class TestLineFaults : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void init()
     {
         m_bus = makeBus();
@@ -376,7 +370,7 @@ private:
 
     const Bytes m_ping = instruction(QStringLiteral("01 01"));
     const Bytes m_answer = status(QStringLiteral("01 00 FC 03 2D"));
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<SimulatedBus> m_bus;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/ptyserver.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/ptyclient.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
@@ -19,9 +20,6 @@ class TestLineFaultsPty : public QObject
 private slots:
     void initTestCase()
     {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
         auto bus = std::make_unique<SimulatedBus>(m_catalog);
         QVERIFY(bus->add({QStringLiteral("XM430-W350"), -1, 57600, 1}));
         m_link = m_folder.filePath(QStringLiteral("dxl"));
@@ -70,7 +68,7 @@ private:
     const Bytes m_answer = status(QStringLiteral("01 00 FC 03 2D"));
     QTemporaryDir m_folder;
     QString m_link;
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<PtyServer> m_server;
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/monitor.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -10,13 +11,6 @@ class TestMonitor : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
-
     void everyNewBusThreadIsToldWhatToPoll()
     {
         VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1"));
@@ -94,7 +88,7 @@ private:
         emit line.batchTaken(batch);
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestMonitor)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/procedures/procedures.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -24,13 +25,6 @@ class TestProcedures : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
-
     void changesAnId()
     {
         VirtualBus wire(m_catalog, QStringLiteral("XM430-W350@57600:1,XM430-W350@57600:2"));
@@ -182,7 +176,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestProcedures)

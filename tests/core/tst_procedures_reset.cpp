@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -10,13 +11,6 @@ class TestProceduresReset : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
-
     // One that obeys is looked for in tst_session, where time passes while it boots.
     void oneThatIgnoredItIsFoundAtItsOldPlace()
     {
@@ -38,7 +32,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestProceduresReset)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -22,13 +23,6 @@ class TestProceduresStop : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
-
     void stopAtEveryPacket_data()
     {
         QTest::addColumn<bool>("isBaud");
@@ -119,7 +113,7 @@ private:
             QCOMPARE(int(each->value(u"Torque Enable")), 0);
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestProceduresStop)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedbus.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
 
@@ -14,13 +15,6 @@ class TestServoBehaviour : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void init() { start(QStringLiteral("XM430-W350"), -1); }
 
     void torqueOnTakesThePresentPositionAsGoal()
@@ -390,7 +384,7 @@ private:
         m_bus->advanceTo(m_client->now);
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<SimulatedBus> m_bus;
     std::optional<Client> m_client;
 };

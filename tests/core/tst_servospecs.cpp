@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedbus.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/testmain.h"
 
 using namespace dynascope;
@@ -11,13 +12,6 @@ class TestServoSpecs : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void good()
     {
         const auto specs = parseServoSpecs(u"XM430-W350@57600:1, xl330m288/52@1000000:7", m_catalog);
@@ -54,7 +48,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestServoSpecs)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedbus.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
 
@@ -31,13 +32,6 @@ class TestSimulatedBus : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void groupReads_data()
     {
         QTest::addColumn<QString>("devices"); // IDs on the wire
@@ -319,7 +313,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
 };
 
 DYNASCOPE_CORE_TEST(TestSimulatedBus)

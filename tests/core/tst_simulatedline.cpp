@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/simulatedline.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
 
@@ -15,9 +16,6 @@ class TestSimulatedLine : public QObject
 private slots:
     void initTestCase()
     {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
         m_ping = instruction(QStringLiteral("01 01"));
         m_answer = status(QStringLiteral("01 00 FC 03 2D"));
     }
@@ -101,7 +99,7 @@ private slots:
     }
 
 private:
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     Bytes m_ping, m_answer;
     std::unique_ptr<SimulatedBus> m_bus;
 };

@@ -3,6 +3,7 @@
 #include "core/sim/ptyserver.h"
 #include "core/sim/servo.h"
 #include "core/table/catalog.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/dxlprocess.h"
 #include "tests/support/loopbackserver.h"
 #include "tests/support/ser2net.h"
@@ -28,7 +29,6 @@ class TestDxlSer2net : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase();
     void init();
     void cleanup();
 
@@ -60,7 +60,7 @@ private:
     int writesOnTheWire();
     int baudCode();
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<sim::PtyServer> m_server;
     std::unique_ptr<Ser2net> m_net;
 };
@@ -70,13 +70,6 @@ void TestDxlSer2net::kinds()
     QTest::addColumn<int>("kind");
     QTest::newRow("tcp") << static_cast<int>(Ser2net::Kind::Raw);
     QTest::newRow("rfc2217") << static_cast<int>(Ser2net::Kind::Rfc2217);
-}
-
-void TestDxlSer2net::initTestCase()
-{
-    auto catalog = Catalog::builtIn();
-    QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-    m_catalog = std::move(*catalog);
 }
 
 void TestDxlSer2net::init()

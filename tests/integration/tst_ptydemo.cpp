@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/demo.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/ptyclient.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
@@ -14,13 +15,6 @@ class TestPtyDemo : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
-    }
-
     void init()
     {
         auto started = Demo::start(m_catalog);
@@ -73,7 +67,7 @@ private:
         return QTest::qWaitFor([&] { return value(id, u"Goal Position") != before; }, 500);
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<Demo> m_demo;
 };
 

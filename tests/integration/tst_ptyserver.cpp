@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/ptyserver.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/ptyclient.h"
 #include "tests/support/simclient.h"
 #include "tests/support/testmain.h"
@@ -19,9 +20,6 @@ class TestPtyServer : public QObject
 private slots:
     void initTestCase()
     {
-        auto loaded = Catalog::builtIn();
-        QVERIFY2(loaded, qPrintable(loaded ? QString() : loaded.error().text));
-        m_catalog = std::move(*loaded);
         m_ping = instruction(QStringLiteral("01 01"));
         m_answer = status(QStringLiteral("01 00 FC 03 2D"));
     }
@@ -157,7 +155,7 @@ private:
         return bus;
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     Bytes m_ping, m_answer;
     std::unique_ptr<PtyServer> m_server;
 };

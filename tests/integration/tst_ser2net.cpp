@@ -5,6 +5,7 @@
 #include "core/session/stopcontrol.h"
 #include "core/sim/ptyserver.h"
 #include "core/sim/servo.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/loopbackserver.h"
 #include "tests/support/ser2net.h"
 #include "tests/support/testmain.h"
@@ -38,12 +39,6 @@ class TestSer2net : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
     void init()
     {
         m_server = serve(QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:2,XL330-M288/52@1000000:7"));
@@ -206,7 +201,7 @@ private:
         return value;
     }
 
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     NetworkLineFactory m_factory{patient()};
     NoPorts m_ports;
     std::unique_ptr<sim::PtyServer> m_server;

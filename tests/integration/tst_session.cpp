@@ -5,6 +5,7 @@
 #include "core/session/stopcontrol.h"
 #include "core/sim/ptyserver.h"
 #include "core/sim/servo.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/uitest.h"
 
 #include <QSignalSpy>
@@ -18,13 +19,6 @@ class TestSession : public QObject
     Q_OBJECT
 
 private slots:
-    void initTestCase()
-    {
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
-    }
-
     void init()
     {
         QVERIFY(m_directory.isValid());
@@ -336,7 +330,7 @@ private:
     }
 
     QTemporaryDir m_directory;
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     SerialLineFactory m_factory;
     std::unique_ptr<sim::PtyServer> m_server;
     std::unique_ptr<Session> m_session;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/window/workshop.h"
 #include "core/sim/servo.h"
+#include "tests/support/builtincatalog.h"
 #include "tests/support/uitest.h"
 #include "tests/support/windowdriver.h"
 
@@ -20,9 +21,6 @@ private slots:
     void initTestCase()
     {
         QVERIFY(m_directory.isValid());
-        auto catalog = Catalog::builtIn();
-        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
-        m_catalog = std::move(*catalog);
     }
 
     void init()
@@ -327,7 +325,7 @@ private:
 
     QTemporaryDir m_directory;
     QString m_link;
-    Catalog m_catalog;
+    const Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<sim::PtyServer> m_server;
     std::unique_ptr<Workshop> m_workshop;
     std::unique_ptr<test::WindowDriver> m_person;

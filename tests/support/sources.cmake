@@ -1,5 +1,5 @@
 target_sources(dynascope_test_support PRIVATE
-    support/busworld.h support/exchangetext.h
+    support/builtincatalog.h support/busworld.h support/exchangetext.h
     support/fakefactory.cpp support/fakefactory.h
     support/fakeline.cpp support/fakeline.h
     support/fakeservos.cpp support/fakeservos.h
