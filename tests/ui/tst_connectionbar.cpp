@@ -9,6 +9,7 @@
 #include "ui/connection/scanoptions.h"
 #include "ui/connection/stopbutton.h"
 
+#include <QCheckBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -304,6 +305,9 @@ private slots:
         options.findChild<QSpinBox *>(QStringLiteral("scanLastId"))->setValue(30);
         options.findChild<QSpinBox *>(QStringLiteral("scanFirstId"))->setValue(40);
         QVERIFY(options.range(0).firstId <= options.range(0).lastId);
+        QVERIFY(!options.range(0).sweep);
+        QTest::mouseClick(options.findChild<QCheckBox *>(QStringLiteral("scanSweep")), Qt::LeftButton);
+        QVERIFY(options.range(0).sweep);
         options.setBauds({});
         QVERIFY(!options.findChild<QPushButton *>(QStringLiteral("scanStart"))->isEnabled());
     }

@@ -3,6 +3,7 @@
 
 #include "ui/common/texts.h"
 
+#include <QCheckBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
@@ -35,6 +36,7 @@ ScanOptions::ScanOptions(QWidget *parent)
     , m_bauds(new QListWidget(m_rates))
     , m_firstId(idSpin(QStringLiteral("scanFirstId"), 0, this))
     , m_lastId(idSpin(QStringLiteral("scanLastId"), 252, this))
+    , m_sweep(new QCheckBox(tr("Ask every ID by itself (slow)"), this))
     , m_summary(new QLabel(this))
     , m_scan(new QPushButton(tr("Scan"), this))
 {
@@ -44,6 +46,9 @@ ScanOptions::ScanOptions(QWidget *parent)
     m_bauds->setAccessibleName(tr("Baud rates to scan"));
     m_firstId->setAccessibleName(tr("First ID"));
     m_lastId->setAccessibleName(tr("Last ID"));
+    m_sweep->setObjectName(QStringLiteral("scanSweep"));
+    m_sweep->setToolTip(tr("For a bus on which a Ping to all at once brings nothing readable, as with an adapter that mixes "
+                           "the answers up. Each ID that nobody has costs a whole waiting time."));
     m_scan->setObjectName(QStringLiteral("scanStart"));
     m_scan->setDefault(true);
     for (const int baud : allBauds()) {
@@ -101,6 +106,7 @@ void ScanOptions::build()
     rates->addLayout(choices);
     layout->addWidget(m_rates);
     layout->addLayout(ids);
+    layout->addWidget(m_sweep);
     layout->addWidget(m_summary);
     layout->addWidget(m_scan);
 }
@@ -136,6 +142,7 @@ ScanRange ScanOptions::range(int lastUsedBaud) const
     const std::vector<int> order = likelyBauds(lastUsedBaud);
     const auto rank = [&order](int baud) { return std::ranges::find(order, baud) - order.begin(); };
     ScanRange range;
+    range.sweep = m_sweep->isChecked();
     range.bauds = m_rates->isVisibleTo(this) ? checkedBauds() : std::vector{lastUsedBaud};
     // A line may work at a rate that is in no list; it is the likeliest of all.
     if (lastUsedBaud > 0 && m_rates->isVisibleTo(this)

@@ -5,6 +5,7 @@
 
 #include <QFrame>
 
+class QCheckBox;
 class QLabel;
 class QListWidget;
 class QPushButton;
@@ -38,6 +39,7 @@ private:
     QListWidget *m_bauds;
     QSpinBox *m_firstId;
     QSpinBox *m_lastId;
+    QCheckBox *m_sweep;
     QLabel *m_summary;
     QPushButton *m_scan;
 };
