@@ -13,6 +13,7 @@
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
 #include "ui/devices/nicknames.h"
+#include "ui/health/healthpanel.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
@@ -51,11 +52,13 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     , m_messages(new MessageBar(this))
     , m_pages(new QStackedWidget(this))
     , m_welcome(new WelcomePage(workbench.ports, this))
+    , m_whole(new QSplitter(Qt::Vertical, this))
     , m_outer(new QSplitter(Qt::Horizontal, this))
     , m_inner(new QSplitter(Qt::Horizontal, this))
     , m_devices(new DevicePanel(workbench, this))
     , m_table(new TablePanel(workbench, this))
     , m_plots(new PlotArea(workbench, this))
+    , m_health(new HealthPanel(this))
     , m_status(new StatusView(this))
     , m_guard(new TorqueGuard(workbench, this))
     , m_firstRead(new FirstRead(workbench, this))
@@ -65,7 +68,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     setWindowIcon(applicationIcon());
     setMinimumSize(900, 600);
     build();
-    m_layout = new LayoutManager(*this, *m_outer, *m_inner);
+    m_layout = new LayoutManager(*this, {*m_whole, *m_outer, *m_inner});
     m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions()}, *m_layout);
     new Nicknames(workbench, this);
 
@@ -101,7 +104,9 @@ void MainWindow::build()
     m_outer->addWidget(m_devices);
     m_outer->addWidget(m_inner);
     m_pages->addWidget(m_welcome);
-    m_pages->addWidget(m_outer);
+    m_whole->addWidget(m_outer);
+    m_whole->addWidget(m_health);
+    m_pages->addWidget(m_whole);
 
     auto *centre = new QWidget(this);
     auto *layout = new QVBoxLayout(centre);
@@ -141,6 +146,7 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::scanOptionsRequested, m_bar, &ConnectionBar::showScanOptions);
     connect(m_menus, &Menus::resumeDemoRequested, this, &MainWindow::resumeDemoRequested);
     connect(m_menus, &Menus::stopRequested, &m_workbench.stop, &StopControl::press);
+    connect(m_health, &HealthPanel::closeRequested, m_layout, [this] { m_layout->setHealthShown(false); });
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
         saveColorScheme(scheme);
@@ -194,6 +200,7 @@ void MainWindow::onLines()
     LineSession *line = m_bar->currentLine();
     const bool open = line && line->state() == BusThread::State::Open;
     m_status->setLine(line);
+    m_health->setLine(line);
     m_menus->setConnected(line != nullptr, open && !m_workbench.scanner.isRunning(),
                           open && line->name() == QStringLiteral("sim") && !m_workbench.stop.isActive());
     // A line that is only being opened for the first time changes nothing yet: it may not come to be.
@@ -201,10 +208,10 @@ void MainWindow::onLines()
     const bool any = std::ranges::any_of(lines, [](const auto &each) {
         return each->state() == BusThread::State::Open || !each->devices().empty();
     });
-    if (any != (m_pages->currentWidget() == m_outer)) {
+    if (any != (m_pages->currentWidget() == m_whole)) {
         // What had the focus hides; it must not fall to the next in the chain, perhaps STOP.
         setFocus();
-        m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_outer) : m_welcome);
+        m_pages->setCurrentWidget(any ? static_cast<QWidget *>(m_whole) : m_welcome);
         if (any)
             focusPane(0);
         else

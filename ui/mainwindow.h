@@ -16,6 +16,7 @@ class ConnectionBar;
 class Connector;
 class DevicePanel;
 class FirstRead;
+class HealthPanel;
 class LayoutManager;
 class Menus;
 class MessageBar;
@@ -26,7 +27,8 @@ class TorqueGuard;
 class WelcomePage;
 struct Watch;
 
-/// The window: devices left, control table centre, plots right or below; connection bar, STOP, message bar, status bar.
+/// The window: devices left, control table centre, plots right or below, Bus health under them where it is wanted;
+/// connection bar, STOP, message bar, status bar.
 /// It puts its parts together and decides nothing about devices.
 class MainWindow : public QMainWindow
 {
@@ -68,11 +70,13 @@ private:
     MessageBar *m_messages;
     QStackedWidget *m_pages;
     WelcomePage *m_welcome;
+    QSplitter *m_whole;
     QSplitter *m_outer;
     QSplitter *m_inner;
     DevicePanel *m_devices;
     TablePanel *m_table;
     PlotArea *m_plots;
+    HealthPanel *m_health;
     StatusView *m_status;
     LayoutManager *m_layout;
     Menus *m_menus;

@@ -7,6 +7,7 @@
 #include <QStringList>
 
 #include <optional>
+#include <set>
 
 namespace dynascope::dxl {
 
@@ -126,6 +127,19 @@ Result<IdRange> parseIds(const QString &text)
     if (!firstOk || !lastOk || parts.size() > 2 || range.first < 0 || range.last > MaximumId || range.first > range.last)
         return wrong(QStringLiteral("\"%1\" is not a range of IDs within 0-%2").arg(text).arg(MaximumId));
     return range;
+}
+
+Result<std::vector<std::uint8_t>> parseIdList(const QString &text)
+{
+    std::set<std::uint8_t> ids;
+    for (const QString &part : text.split(u',')) {
+        const auto range = parseIds(part);
+        if (!range)
+            return tl::unexpected(range.error());
+        for (int id = range->first; id <= range->last; ++id)
+            ids.insert(static_cast<std::uint8_t>(id));
+    }
+    return std::vector<std::uint8_t>(ids.begin(), ids.end());
 }
 
 } // namespace dynascope::dxl

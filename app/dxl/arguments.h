@@ -35,5 +35,6 @@ struct IdRange {
     int last = 0;
 };
 Result<IdRange> parseIds(const QString &text); ///< "0-252" or "7"
+Result<std::vector<std::uint8_t>> parseIdList(const QString &text); ///< "1,4-7": ascending, each once
 
 } // namespace dynascope::dxl

@@ -20,6 +20,8 @@ ExitCode scanCommand(const Work &work);
 ExitCode pingCommand(const Work &work);
 ExitCode readCommand(const Work &work);
 ExitCode writeCommand(const Work &work);
+/// Polls for a while, or until the program is interrupted, and reports.
+ExitCode statsCommand(const Work &work);
 
 /// Serves the bus until the program is interrupted.
 ExitCode simCommand(const Catalog &catalog, const Options &options, Output &output);

@@ -32,6 +32,24 @@ Document &Document::addFlag(const char *key, bool value)
     return addRaw(key, value ? "true" : "false");
 }
 
+Document &Document::add(const char *key, const Document &object)
+{
+    return addRaw(key, object.toJson());
+}
+
+Document &Document::add(const char *key, const std::vector<Document> &objects)
+{
+    QByteArrayList all;
+    for (const Document &object : objects)
+        all << object.toJson();
+    return addRaw(key, '[' + all.join(",\n  ") + ']');
+}
+
+Document &Document::add(const char *key, const QStringList &texts)
+{
+    return addRaw(key, QJsonDocument(QJsonArray::fromStringList(texts)).toJson(QJsonDocument::Compact));
+}
+
 Document &Document::addRaw(const char *key, const QByteArray &json)
 {
     if (!m_members.isEmpty())

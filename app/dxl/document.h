@@ -2,7 +2,9 @@
 #pragma once
 
 #include <QByteArray>
-#include <QString>
+#include <QStringList>
+
+#include <vector>
 
 namespace dynascope::dxl {
 
@@ -15,6 +17,9 @@ public:
     Document &add(const char *key, qint64 number);
     Document &add(const char *key, double number);
     Document &addFlag(const char *key, bool value);
+    Document &add(const char *key, const Document &object);
+    Document &add(const char *key, const std::vector<Document> &objects);
+    Document &add(const char *key, const QStringList &texts);
 
     QByteArray toJson() const { return '{' + m_members + '}'; }
 

@@ -24,6 +24,7 @@ ExitCode perform(const Options &options, Output &output)
     case Command::Ping: return pingCommand(work);
     case Command::Read: return readCommand(work);
     case Command::Write: return writeCommand(work);
+    case Command::Stats: return statsCommand(work);
     case Command::Sim: break;
     }
     return ExitCode::Usage;

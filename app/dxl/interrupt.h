@@ -6,7 +6,7 @@
 namespace dynascope::dxl {
 
 /// Turns Ctrl-C, SIGTERM and a closed terminal into an orderly end. Made before any other thread, which then leave those
-/// signals to wait().
+/// signals to wait() and came().
 class Interrupt
 {
 public:
@@ -14,10 +14,12 @@ public:
     ~Interrupt(); ///< the signals do again what they did
 
     void wait(); ///< until one comes
+    bool came(); ///< has one come? From then on: yes
 
 private:
     struct Signals;
     std::unique_ptr<Signals> m_signals;
+    bool m_came = false;
 };
 
 } // namespace dynascope::dxl

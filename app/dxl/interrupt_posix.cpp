@@ -30,4 +30,11 @@ void Interrupt::wait()
     sigwait(&m_signals->ending, &signal);
 }
 
+bool Interrupt::came()
+{
+    const timespec atOnce{};
+    m_came = m_came || sigtimedwait(&m_signals->ending, nullptr, &atOnce) > 0;
+    return m_came;
+}
+
 } // namespace dynascope::dxl

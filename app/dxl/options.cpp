@@ -16,7 +16,8 @@ namespace {
 /// As typed, before our own languages are read.
 struct Typed {
     std::string port, ids = "0-252", devices, link;
-    std::optional<std::string> bauds;
+    std::optional<std::string> bauds, idList;
+    double seconds = 10;
     int baudRate = 57600;
     int id = 0;
     bool json = false;
@@ -27,6 +28,20 @@ struct Typed {
 constexpr const char *Values =
     "A VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, 50%) or the "
     "name of an enum value or of bits joined by '+'.";
+
+void describeStats(CLI::App &app, Typed &typed)
+{
+    CLI::App *stats = app.add_subcommand("stats", "Poll the devices at full rate and report how well they answer; "
+                                                  "Ctrl-C ends early, with the report");
+    stats->add_option("--seconds", typed.seconds, "How long (10)")
+        ->type_name("N")
+        ->check(CLI::Range(0.01, 1e6).description({}));
+    stats->add_option("--watch", typed.registers, "What to read: FIELDs, or ADDRESS:LENGTH in bytes (Present Position)")
+        ->type_name("FIELD");
+    stats->add_option("--ids", typed.idList, "The devices that should be there: 1,4-7 (whoever a scan finds)")
+        ->type_name("LIST");
+    stats->footer("Worst device first. !! marks 1 % of bad answers and more, ! 0.1 %.");
+}
 
 void describe(CLI::App &app, Typed &typed)
 {
@@ -69,6 +84,8 @@ void describe(CLI::App &app, Typed &typed)
         ->required()
         ->type_name({});
 
+    describeStats(app, typed);
+
     CLI::App *sim = app.add_subcommand("sim", "Serve simulated devices on a pseudo-terminal until interrupted; its path "
                                               "is the first line of standard output");
     sim->add_option("--devices", typed.devices, "MODEL[/FIRMWARE]@BAUD:ID, joined by commas")
@@ -82,12 +99,13 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     Options options;
     if (app.get_subcommands().empty())
         return failure(ErrorKind::InvalidArgument,
-                       QStringLiteral("say what to do: scan, ping, read, write or sim; dxl --help tells more"));
+                       QStringLiteral("say what to do: scan, ping, read, write, stats or sim; dxl --help tells more"));
     const std::string name = app.get_subcommands().front()->get_name();
     options.command = name == "scan" ? Command::Scan
         : name == "ping"             ? Command::Ping
         : name == "read"             ? Command::Read
         : name == "write"            ? Command::Write
+        : name == "stats"            ? Command::Stats
                                      : Command::Sim;
     options.port = QString::fromStdString(typed.port);
     options.baudRate = typed.baudRate;
@@ -111,6 +129,13 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     if (!ids)
         return tl::unexpected(ids.error());
     options.ids = *ids;
+    options.seconds = typed.seconds;
+    if (typed.idList) {
+        auto list = parseIdList(QString::fromStdString(*typed.idList));
+        if (!list)
+            return tl::unexpected(list.error());
+        options.idList = std::move(*list);
+    }
 
     for (const std::string &text : typed.registers) {
         const auto argument = options.command == Command::Write ? parseAssignment(QString::fromStdString(text))

@@ -14,7 +14,7 @@ enum class ExitCode {
     Unconfirmed = 3, ///< sent to a device that was told never to answer
 };
 
-enum class Command { Scan, Ping, Read, Write, Sim };
+enum class Command { Scan, Ping, Read, Write, Stats, Sim };
 
 /// What the command line says, checked as far as that goes without a device.
 struct Options {
@@ -29,6 +29,9 @@ struct Options {
     // ping, read, write
     std::uint8_t id = 0;
     std::vector<RegisterArgument> registers;
+    // stats, with `registers`
+    double seconds = 10;
+    std::vector<std::uint8_t> idList; ///< who should be there; empty: whoever a scan finds
     // sim
     QString devices;
     QString link;

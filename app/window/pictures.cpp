@@ -5,6 +5,7 @@
 #include "ui/devices/devicepanel.h"
 #include "ui/plot/plotarea.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QDir>
 #include <QElapsedTimer>
@@ -41,7 +42,10 @@ public:
     }
 
 private:
-    using Step = std::function<void()>;
+    struct Step {
+        std::function<void()> run;
+        std::chrono::milliseconds pause = 700ms; ///< behind it: the next frames come in the new look
+    };
 
     void waitForDevices()
     {
@@ -77,19 +81,19 @@ private:
 
     void planOne(const QString &file)
     {
-        m_steps.push_back([this, file] { save(file); });
+        m_steps.push_back({[this, file] { save(file); }});
     }
 
     void planAll(const QDir &directory)
     {
         const QString scale = qApp->devicePixelRatio() > 1 ? QStringLiteral("@2x") : QString();
         const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const char *name) {
-            m_steps.push_back([this, scheme, size] {
+            m_steps.push_back({[this, scheme, size] {
                 m_workshop.applyScheme(scheme);
                 m_workshop.window().resize(size);
-            });
-            m_steps.push_back([this, file = directory.filePath(QString::fromLatin1(name) + scale
-                                                               + QStringLiteral(".png"))] { save(file); });
+            }});
+            m_steps.push_back({[this, file = directory.filePath(QString::fromLatin1(name) + scale
+                                                                + QStringLiteral(".png"))] { save(file); }});
         };
         const QSize large(1440, 900);
         const QSize small(960, 640);
@@ -97,6 +101,34 @@ private:
         shot(ColorScheme::Dark, large, "window-dark");
         shot(ColorScheme::Light, small, "window-small-light");
         shot(ColorScheme::Dark, small, "window-small-dark");
+        m_steps.push_back({[this] { showBadCables(); }, PlotTime});
+        shot(ColorScheme::Light, large, "health-light");
+        shot(ColorScheme::Dark, large, "health-dark");
+        shot(ColorScheme::Dark, small, "health-small-dark");
+    }
+
+    /// Bus health with something to see in it: one cable that is bad, one that is poor.
+    void showBadCables()
+    {
+        const auto fault = [](int id, sim::ReplyFault::Kind kind, double share) {
+            sim::ReplyFault one;
+            one.id = id;
+            one.kind = kind;
+            one.share = share;
+            one.times = -1;
+            one.amount = kind == sim::ReplyFault::Kind::Cut ? 9 : 0;
+            one.atAdapter = true;
+            return one;
+        };
+        using Kind = sim::ReplyFault::Kind;
+        sim::LineFaults faults;
+        faults.replies = {fault(3, Kind::Damaged, 0.03), fault(3, Kind::Lost, 0.004), fault(2, Kind::Cut, 0.003)};
+        if (sim::Demo *demo = m_workshop.lines().demo())
+            demo->server().post([faults](sim::SimulatedBus &bus, LineTime) { bus.setFaults(faults); });
+        for (const auto &line : m_workshop.session().lines())
+            line->health().startAnew();
+        if (auto *action = m_workshop.window().findChild<QAction *>(QStringLiteral("busHealthAction")))
+            action->setChecked(true);
     }
 
     void save(const QString &file)
@@ -117,8 +149,8 @@ private:
         }
         const Step step = std::move(m_steps.front());
         m_steps.pop_front();
-        step();
-        QTimer::singleShot(700ms, this, &PictureTaker::next); // the next frames come in the new look
+        step.run();
+        QTimer::singleShot(step.pause, this, &PictureTaker::next);
     }
 
     Workshop &m_workshop;

@@ -16,6 +16,7 @@ BusThread::BusThread(LineFactory &factory, QString name, int baudRate, QObject *
 {
     connect(m_outbox.get(), &Outbox::batchesReady, this, &BusThread::batchesReady);
     connect(m_outbox.get(), &Outbox::statisticsChanged, this, &BusThread::statisticsChanged);
+    connect(m_outbox.get(), &Outbox::qualityChanged, this, &BusThread::qualityChanged);
     m_worker->start();
 }
 
@@ -76,6 +77,11 @@ std::vector<Batch> BusThread::takeBatches()
 BusStatistics BusThread::statistics() const
 {
     return m_outbox->statistics();
+}
+
+LineQuality BusThread::quality() const
+{
+    return m_outbox->quality();
 }
 
 void BusThread::setStopTargets(std::vector<StopTarget> targets)

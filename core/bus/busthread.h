@@ -63,6 +63,7 @@ public:
 
     std::vector<Batch> takeBatches(); ///< those since the last call, oldest first; bounded, the oldest go first
     BusStatistics statistics() const; ///< as of the last batch or job
+    LineQuality quality() const;      ///< since the line was opened, as it was about half a second ago
 
     /// @name STOP
     /// @{
@@ -76,6 +77,7 @@ signals:
     void stateChanged();
     void batchesReady(); ///< one pending notice at most
     void statisticsChanged();
+    void qualityChanged(); ///< about twice a second while the line is open, and when it ends
     void stopFinished(const std::vector<dynascope::StopOutcome> &outcomes);
 
 private:

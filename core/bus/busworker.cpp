@@ -14,6 +14,7 @@ namespace {
 
 constexpr LineTime LookInterval = 100ms; ///< an unplugged port says so only when it is looked at
 constexpr LineTime TellInterval = 250ms;
+constexpr auto QualityInterval = 500ms; ///< a snapshot has a few hundred bytes a device
 
 } // namespace
 
@@ -32,6 +33,7 @@ public:
                 return on;
             if (m_worker.m_exclusive > 0)
                 return {};
+            m_worker.tellQuality(false);
             std::optional<QueuedJob> urgent = m_worker.m_queue.take(m_job.priority);
             if (!urgent)
                 return {};
@@ -138,6 +140,7 @@ void BusWorker::run()
     loop();
     const std::optional<Error> lost = m_bus->lost();
     tellStatistics(true);
+    tellQuality(true);
     m_poller.reset();
     m_bus.reset();
     m_line.reset(); // the port is free before anybody hears of it
@@ -151,6 +154,7 @@ void BusWorker::loop()
 {
     while (!m_bus->lost()) {
         runOrders();
+        tellQuality(false);
         if (m_stopRequested.load(std::memory_order_acquire)) {
             runStop(); // also where somebody closes the line right after it
             continue;
@@ -258,6 +262,17 @@ void BusWorker::tellStatistics(bool now)
     if (tell)
         m_toldAt = m_line->now();
     m_outbox.setStatistics(m_bus->statistics(), tell);
+}
+
+void BusWorker::tellQuality(bool now)
+{
+    const auto present = std::chrono::steady_clock::now();
+    if (!now && present - m_qualityToldAt < QualityInterval)
+        return;
+    m_qualityToldAt = present;
+    LineQuality quality = m_bus->quality();
+    quality.at = m_line->now();
+    m_outbox.setQuality(std::move(quality));
 }
 
 /// The state first: whoever is refused can ask for it.

@@ -46,6 +46,7 @@ private:
     void toWorkingBaud();
     void tellState(BusThread::State state, const Error &error = {});
     void tellStatistics(bool now);
+    void tellQuality(bool now);
     void end(BusThread::State state, const Error &error);
 
     BusThread &m_owner; ///< touched by deliveries only, on its thread
@@ -64,6 +65,7 @@ private:
     int m_exclusive = 0;
     LineTime m_lookedAt{}; ///< when the idle port was last looked at
     LineTime m_toldAt{};   ///< when statistics were last told
+    std::chrono::steady_clock::time_point m_qualityToldAt; ///< a person's time, whatever the line's clock does
 };
 
 } // namespace dynascope

@@ -49,6 +49,20 @@ BusStatistics Outbox::statistics() const
     return m_statistics;
 }
 
+void Outbox::setQuality(LineQuality quality)
+{
+    const std::lock_guard lock(m_mutex);
+    std::swap(m_quality, quality);
+    m_tellQuality = true;
+    notify();
+}
+
+LineQuality Outbox::quality() const
+{
+    const std::lock_guard lock(m_mutex);
+    return m_quality;
+}
+
 void Outbox::notify()
 {
     if (std::exchange(m_noticePending, true))
@@ -61,12 +75,14 @@ void Outbox::drain()
     decltype(m_deliveries) deliveries;
     bool tellBatches = false;
     bool tellStatistics = false;
+    bool tellQuality = false;
     {
         const std::lock_guard lock(m_mutex);
         m_noticePending = false;
         deliveries.swap(m_deliveries);
         tellBatches = std::exchange(m_tellBatches, false);
         tellStatistics = std::exchange(m_tellStatistics, false);
+        tellQuality = std::exchange(m_tellQuality, false);
     }
     const QPointer<Outbox> self(this);
     for (const auto &[recipient, delivery] : deliveries) {
@@ -79,6 +95,8 @@ void Outbox::drain()
         emit batchesReady();
     if (self && tellStatistics)
         emit statisticsChanged();
+    if (self && tellQuality)
+        emit qualityChanged();
 }
 
 } // namespace dynascope

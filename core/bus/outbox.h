@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bus/jobqueue.h"
+#include "core/bus/quality_values.h"
 
 namespace dynascope {
 
@@ -24,6 +25,8 @@ public:
     void setStatistics(const BusStatistics &statistics, bool tell);
     std::vector<Batch> takeBatches();
     BusStatistics statistics() const;
+    void setQuality(LineQuality quality); ///< and tells
+    LineQuality quality() const;
 
     /// Runs what has come, in its order. GUI thread. A delivery may destroy the outbox.
     void drain();
@@ -31,6 +34,7 @@ public:
 signals:
     void batchesReady();
     void statisticsChanged();
+    void qualityChanged();
 
 private:
     void notify();
@@ -39,10 +43,12 @@ private:
     std::vector<std::pair<RecipientPtr, Delivery>> m_deliveries;
     std::deque<Batch> m_batches;
     BusStatistics m_statistics;
+    LineQuality m_quality;
     bool m_noticePending = false;
     bool m_batchNoticePending = false; ///< told, and not yet taken
     bool m_tellBatches = false;
     bool m_tellStatistics = false;
+    bool m_tellQuality = false;
 };
 
 } // namespace dynascope

@@ -16,7 +16,7 @@ target_sources(dynascope_core PRIVATE
     bus/outbox.cpp bus/outbox.h
     bus/poll_values.h
     bus/poller.cpp bus/poller.h
-    bus/quality.cpp bus/quality.h
+    bus/quality.cpp bus/quality.h bus/quality_values.h
     bus/readplan.cpp bus/readplan.h
     bus/remainder.cpp bus/remainder.h
     bus/rfc2217.cpp bus/rfc2217.h

@@ -71,6 +71,8 @@ void LineSession::startThread(const QString &name, int baudRate)
     m_sinceMeasured.start();
     m_busyAtMeasure = {};
     connect(m_thread.get(), &BusThread::stateChanged, this, &LineSession::onThreadState);
+    m_health.begin();
+    connect(m_thread.get(), &BusThread::qualityChanged, this, [this] { m_health.take(m_thread->quality()); });
     connect(m_thread.get(), &BusThread::batchesReady, this, [this] {
         if (!m_frameTimer.isActive())
             m_frameTimer.start();
@@ -132,6 +134,7 @@ Device &LineSession::heard(const Found &found)
             return std::pair(a->baudRate(), a->id()) < std::pair(b->baudRate(), b->id());
         };
         m_devices.insert(std::ranges::upper_bound(m_devices, device, before), std::move(device));
+        countAnew(*known);
         park(*known);
         emit deviceAdded(known);
     }
@@ -155,8 +158,16 @@ void LineSession::moveDevice(Device &device, const Found &found)
     m_failures[device.key()] = 0;
     device.setFound(found);
     device.setHeard(monotonicNow());
+    countAnew(device);
     park(device);
     emit deviceLocated(&device);
+}
+
+/// What was counted for its ID was another one's.
+void LineSession::countAnew(const Device &device)
+{
+    if (device.baudRate() == baudRate())
+        m_health.startAnew(device.id());
 }
 
 void LineSession::forget(DeviceKey key)
@@ -172,6 +183,7 @@ void LineSession::forget(DeviceKey key)
 void LineSession::setWorkingBaudRate(int bitsPerSecond)
 {
     m_thread->setWorkingBaudRate(bitsPerSecond);
+    m_health.startAnew();
     for (const auto &device : m_devices)
         park(*device);
     emit stateChanged();

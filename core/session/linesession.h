@@ -3,6 +3,7 @@
 
 #include "core/bus/busthread.h"
 #include "core/session/device.h"
+#include "core/session/linehealth.h"
 
 #include <QElapsedTimer>
 #include <QTimer>
@@ -48,6 +49,7 @@ public:
     /// Full-rate cycles a second over the last second; 0 while nothing is watched at full rate.
     double cycleRate() const { return m_cycleRate; }
     double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second spent in exchanges
+    LineHealth &health() { return m_health; }
 
 signals:
     void deviceAdded(dynascope::Device *device);
@@ -67,6 +69,7 @@ private:
     void countFailure(Device &device, const Error &error);
     void measureRates();
     void park(Device &device);
+    void countAnew(const Device &device);
 
     LineFactory &m_factory;
     const Catalog &m_catalog;
@@ -75,6 +78,7 @@ private:
     std::vector<std::unique_ptr<Device>> m_devices;
     std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row
     int m_generation = 0;
+    LineHealth m_health;
     QTimer m_rateTimer;
     QTimer m_frameTimer;
     QElapsedTimer m_sinceMeasured;

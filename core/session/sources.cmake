@@ -1,8 +1,10 @@
 target_sources(dynascope_core PRIVATE
+    session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
     session/device.cpp session/device.h
     session/deviceplace.cpp session/deviceplace.h
     session/history.cpp session/history.h
+    session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
     session/placecommands.cpp

@@ -17,6 +17,20 @@ struct Outcome {
 /// Runs build/bin/dxl until it ends.
 Outcome dxl(const QStringList &arguments);
 
+/// `dxl` while it runs; killed where nobody waited for its end.
+class RunningDxl
+{
+public:
+    explicit RunningDxl(const QStringList &arguments);
+    ~RunningDxl();
+
+    Outcome interrupt(); ///< as Ctrl-C does; waits for the end
+    Outcome finish();    ///< waits for the end
+
+private:
+    QProcess m_process;
+};
+
 /// `dxl sim` in a process of its own, for as long as this lives.
 class SimProcess
 {

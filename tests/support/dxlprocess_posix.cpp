@@ -14,6 +14,20 @@ QString program()
     return QStringLiteral(DYNASCOPE_BIN_DIR "/dxl");
 }
 
+Outcome outcomeOf(QProcess &process)
+{
+    Outcome outcome;
+    if (process.state() != QProcess::NotRunning && !process.waitForFinished(Patience)) {
+        process.kill();
+        process.waitForFinished(Patience);
+    } else if (process.exitStatus() == QProcess::NormalExit) {
+        outcome.code = process.exitCode();
+    }
+    outcome.out = QString::fromUtf8(process.readAllStandardOutput());
+    outcome.err = QString::fromUtf8(process.readAllStandardError());
+    return outcome;
+}
+
 } // namespace
 
 Outcome dxl(const QStringList &arguments)
@@ -29,6 +43,31 @@ Outcome dxl(const QStringList &arguments)
     outcome.err = QString::fromUtf8(process.readAllStandardError());
     process.waitForFinished(Patience);
     return outcome;
+}
+
+RunningDxl::RunningDxl(const QStringList &arguments)
+{
+    m_process.start(program(), arguments);
+    m_process.waitForStarted(Patience);
+}
+
+RunningDxl::~RunningDxl()
+{
+    if (m_process.state() == QProcess::NotRunning)
+        return;
+    m_process.kill();
+    m_process.waitForFinished(Patience);
+}
+
+Outcome RunningDxl::interrupt()
+{
+    ::kill(static_cast<pid_t>(m_process.processId()), SIGINT);
+    return finish();
+}
+
+Outcome RunningDxl::finish()
+{
+    return outcomeOf(m_process);
 }
 
 SimProcess::SimProcess(const QString &devices, const QString &link)
@@ -73,16 +112,7 @@ void SimProcess::kill()
 
 Outcome SimProcess::finish()
 {
-    Outcome outcome;
-    if (!m_process.waitForFinished(Patience)) {
-        m_process.kill();
-        m_process.waitForFinished(Patience);
-    } else if (m_process.exitStatus() == QProcess::NormalExit) {
-        outcome.code = m_process.exitCode();
-    }
-    outcome.out = QString::fromUtf8(m_process.readAllStandardOutput());
-    outcome.err = errors();
-    return outcome;
+    return outcomeOf(m_process);
 }
 
 } // namespace dynascope::test

@@ -17,6 +17,7 @@ constexpr QSize DefaultSize(1440, 900);
 constexpr int WideEnough = 1200; ///< from here on table and plots fit beside each other
 constexpr int DevicesWidth = 248;
 constexpr int TableWidth = 826; ///< shows every column of one device
+constexpr int HealthHeight = 264; ///< six devices, the line, and what is said about them
 constexpr int PlotWidth = 364;  ///< what the table leaves to the plots
 
 const QString GeometryKey = QStringLiteral("window/geometry");
@@ -25,16 +26,24 @@ const QString RightKey = QStringLiteral("window/plotsRight");
 const QString BelowKey = QStringLiteral("window/plotsBelow");
 const QString RightName = QStringLiteral("right");
 const QString BelowName = QStringLiteral("below");
+const QString HealthKey = QStringLiteral("window/health");
+const QString HealthShownKey = QStringLiteral("window/healthShown");
 const QString PlaceKey = QStringLiteral("window/plotPlace");
 
 } // namespace
 
-LayoutManager::LayoutManager(QMainWindow &window, QSplitter &outer, QSplitter &inner)
+LayoutManager::LayoutManager(QMainWindow &window, const Splitters &splitters)
     : QObject(&window)
     , m_window(window)
-    , m_outer(outer)
-    , m_inner(inner)
+    , m_whole(splitters.whole)
+    , m_outer(splitters.outer)
+    , m_inner(splitters.inner)
 {
+    m_whole.setChildrenCollapsible(false);
+    m_whole.setHandleWidth(1);
+    m_whole.setStretchFactor(0, 1);
+    m_whole.setStretchFactor(1, 0);
+    m_whole.widget(1)->hide();
     m_outer.setChildrenCollapsible(false);
     m_inner.setChildrenCollapsible(false);
     m_outer.setStretchFactor(0, 0);
@@ -42,8 +51,10 @@ LayoutManager::LayoutManager(QMainWindow &window, QSplitter &outer, QSplitter &i
     m_inner.setStretchFactor(0, 1);
     m_inner.setStretchFactor(1, 1);
     window.installEventFilter(this);
-    inner.installEventFilter(this);
-    connect(&inner, &QSplitter::splitterMoved, this, &LayoutManager::storeInner);
+    m_inner.installEventFilter(this);
+    m_whole.installEventFilter(this);
+    connect(&m_inner, &QSplitter::splitterMoved, this, &LayoutManager::storeInner);
+    connect(&m_whole, &QSplitter::splitterMoved, this, [this] { m_health = m_whole.saveState(); });
 }
 
 PlotPlace LayoutManager::fitting() const
@@ -57,6 +68,8 @@ bool LayoutManager::eventFilter(QObject *watched, QEvent *event)
         apply(fitting());
     if (event->type() == QEvent::Resize && watched == &m_inner)
         arrange();
+    if (event->type() == QEvent::Resize && watched == &m_whole)
+        arrangeHealth();
     return QObject::eventFilter(watched, event);
 }
 
@@ -90,6 +103,26 @@ void LayoutManager::arrange()
     m_inner.setSizes({table, whole - table});
 }
 
+void LayoutManager::setHealthShown(bool shown)
+{
+    if (shown == m_healthShown)
+        return;
+    m_healthShown = shown;
+    m_whole.widget(1)->setVisible(shown);
+    if (shown)
+        arrangeHealth();
+    emit healthShownChanged();
+}
+
+/// Until a person moves the handle it has room for a few devices, and stays small in a small window.
+void LayoutManager::arrangeHealth()
+{
+    if (!m_healthShown || !m_health.isEmpty())
+        return;
+    const int height = std::min(HealthHeight, m_whole.height() / 3);
+    m_whole.setSizes({m_whole.height() - height, height});
+}
+
 void LayoutManager::storeInner()
 {
     (m_place == PlotPlace::Right ? m_right : m_below) = m_inner.saveState();
@@ -114,6 +147,13 @@ void LayoutManager::restore()
     m_outer.setChildrenCollapsible(false);
     m_right = settings.value(RightKey).toByteArray();
     m_below = settings.value(BelowKey).toByteArray();
+    m_health = settings.value(HealthKey).toByteArray();
+    if (!m_health.isEmpty())
+        m_whole.restoreState(m_health);
+    m_whole.setHandleWidth(1);
+    m_whole.setChildrenCollapsible(false);
+    setHealthShown(settings.value(HealthShownKey).toBool());
+    m_whole.widget(1)->setVisible(m_healthShown); // the state that was restored may say otherwise
     const QString place = settings.value(PlaceKey).toString();
     m_chosen = place == RightName || place == BelowName;
     apply(!m_chosen ? fitting() : place == BelowName ? PlotPlace::Below : PlotPlace::Right);
@@ -124,6 +164,8 @@ void LayoutManager::save() const
     QSettings settings;
     settings.setValue(GeometryKey, m_window.saveGeometry());
     settings.setValue(OuterKey, m_outer.saveState());
+    settings.setValue(HealthKey, m_health);
+    settings.setValue(HealthShownKey, m_healthShown);
     settings.setValue(RightKey, m_right);
     settings.setValue(BelowKey, m_below);
     settings.setValue(PlaceKey, !m_chosen ? QString() : m_place == PlotPlace::Right ? RightName : BelowName);
@@ -134,6 +176,8 @@ void LayoutManager::reset()
     m_chosen = false;
     m_right.clear();
     m_below.clear();
+    m_health.clear();
+    setHealthShown(false);
     if (!m_window.isMaximized() && !m_window.isFullScreen())
         setDefaultSizes();
     else

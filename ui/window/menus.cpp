@@ -110,6 +110,8 @@ void Menus::makeViewMenu(LayoutManager &layout)
     };
     connect(&layout, &LayoutManager::plotPlaceChanged, this, tick);
     tick();
+    menu->addSeparator();
+    addHealth(menu, layout);
     QAction *reset = add(menu, QStringLiteral("resetLayoutAction"), tr("R&eset the layout"), {});
     connect(reset, &QAction::triggered, &layout, &LayoutManager::reset);
     menu->addSeparator();
@@ -120,6 +122,18 @@ void Menus::makeViewMenu(LayoutManager &layout)
                               QStringLiteral("Ctrl+%1").arg(pane + 1));
         connect(action, &QAction::triggered, this, [this, pane] { emit focusRequested(pane); });
     }
+}
+
+void Menus::addHealth(QMenu *menu, LayoutManager &layout)
+{
+    QAction *health = add(
+        menu, QStringLiteral("busHealthAction"), tr("Bus &health"), QStringLiteral("Ctrl+H"), QStringLiteral("health"));
+    health->setCheckable(true);
+    health->setToolTip(tr("How well each device answers, and what goes wrong on the line"));
+    connect(health, &QAction::toggled, &layout, &LayoutManager::setHealthShown);
+    const auto tick = [&layout, health] { health->setChecked(layout.isHealthShown()); };
+    connect(&layout, &LayoutManager::healthShownChanged, this, tick);
+    tick();
 }
 
 void Menus::makeDeviceMenu(const std::vector<QAction *> &actions)

@@ -46,6 +46,7 @@ private:
         QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
     void makeFileMenu(const std::vector<QAction *> &saveActions);
     void makeViewMenu(LayoutManager &layout);
+    void addHealth(QMenu *menu, LayoutManager &layout);
     void makeDeviceMenu(const std::vector<QAction *> &actions);
     void makeDemoMenu();
     void makeHelpMenu();

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/linehealth.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace dynascope {
+namespace {
+
+/// Counts of an ID; none where it was never asked.
+DeviceQuality of(const LineQuality &quality, std::uint8_t id)
+{
+    const DeviceQuality *device = quality.device(id);
+    return device ? *device : DeviceQuality{};
+}
+
+} // namespace
+
+double LineHealth::seconds() const
+{
+    return std::chrono::duration<double>(m_latest.at - m_origin.at).count();
+}
+
+double LineHealth::rate(quint64 now, quint64 before) const
+{
+    const double seconds = std::chrono::duration<double>(m_latest.at - m_previous.at).count();
+    const bool counted = m_previous.at > LineTime() && seconds > 0 && now >= before;
+    return counted ? static_cast<double>(now - before) / seconds : 0.0;
+}
+
+double LineHealth::bytesPerSecond(std::uint8_t id) const
+{
+    return rate(of(m_latest, id).bytes, of(m_previous, id).bytes);
+}
+
+double LineHealth::bytesPerSecond() const
+{
+    return rate(m_latest.sum().bytes, m_previous.sum().bytes);
+}
+
+void LineHealth::startAnew()
+{
+    m_origin = m_latest;
+    show();
+}
+
+void LineHealth::startAnew(std::uint8_t id)
+{
+    const DeviceQuality *present = m_latest.device(id);
+    if (!present)
+        return;
+    const auto origin = std::ranges::find(m_origin.devices, id, &DeviceQuality::id);
+    if (origin == m_origin.devices.end())
+        m_origin.devices.push_back(*present);
+    else
+        *origin = *present;
+    show();
+}
+
+void LineHealth::begin()
+{
+    m_latest = m_previous = m_origin = {};
+    show();
+}
+
+void LineHealth::take(LineQuality quality)
+{
+    m_previous = std::move(m_latest);
+    m_latest = std::move(quality);
+    if (m_origin.at == LineTime())
+        m_origin.at = m_latest.at;
+    show();
+}
+
+void LineHealth::show()
+{
+    m_shown = m_latest.since(m_origin);
+    emit changed();
+}
+
+} // namespace dynascope

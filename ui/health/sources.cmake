@@ -1,0 +1,6 @@
+target_sources(dynascope_ui PRIVATE
+    health/healthdelegate.cpp health/healthdelegate.h
+    health/healthmodel.cpp health/healthmodel.h
+    health/healthpanel.cpp health/healthpanel.h
+    health/healthtexts.cpp health/healthtexts.h
+)
