@@ -22,6 +22,7 @@ struct Typed {
     int id = 0;
     bool json = false;
     bool verbose = false;
+    bool sweep = false;
     std::vector<std::string> registers;
 };
 
@@ -64,6 +65,7 @@ void describe(CLI::App &app, Typed &typed)
     scan->add_option("--bauds", typed.bauds, "Baud rates to try: 57600,1000000 or all (that of --baud)")
         ->type_name("LIST");
     scan->add_option("--ids", typed.ids, "IDs to look for (0-252)")->type_name("RANGE");
+    scan->add_flag("--sweep", typed.sweep, "Ask every ID by itself, for buses on which a Ping to all fails; slow");
 
     const auto forDevice = [&](const char *name, const std::string &text) {
         CLI::App *command = app.add_subcommand(name, text);
@@ -129,6 +131,7 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     if (!ids)
         return tl::unexpected(ids.error());
     options.ids = *ids;
+    options.sweep = typed.sweep;
     options.seconds = typed.seconds;
     if (typed.idList) {
         auto list = parseIdList(QString::fromStdString(*typed.idList));

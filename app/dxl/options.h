@@ -26,6 +26,7 @@ struct Options {
     // scan
     std::vector<int> bauds;
     IdRange ids{0, 252};
+    bool sweep = false; ///< scan: one Ping after the other
     // ping, read, write
     std::uint8_t id = 0;
     std::vector<RegisterArgument> registers;

@@ -56,7 +56,7 @@ Result<std::size_t> scanAt(const Work &work, int baud)
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
     // Printed when the rate is done: what makes an answer doubtful comes after it.
-    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last}, {});
+    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last, work.options.sweep}, {});
     if (!found)
         return tl::unexpected(found.error());
     for (const Found &device : found->devices)

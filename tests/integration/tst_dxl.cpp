@@ -112,6 +112,8 @@ void TestDxl::scan()
                        u"57600 bps, ID 2: XL430-W250 (model 1060), firmware 45\n"_s);
     QCOMPARE(here.code, 0);
 
+    QCOMPARE(dxl({u"scan"_s, u"--ids"_s, u"0-3"_s, u"--sweep"_s}).out, here.out); // one by one, the same
+
     const Outcome everywhere = dxl({u"scan"_s, u"--bauds"_s, u"all"_s, u"--ids"_s, u"2-10"_s});
     QCOMPARE(everywhere.out, u"57600 bps, ID 2: XL430-W250 (model 1060), firmware 45\n"
                              u"1000000 bps, ID 7: XL330-M288 (model 1200), firmware 52\n"_s);
