@@ -132,6 +132,7 @@ void MainWindow::connectConnection()
     connect(m_connector, &Connector::posted, m_messages, qOverload<Message>(&MessageBar::post));
     connect(m_connector, &Connector::retracted, m_messages, &MessageBar::retract);
     connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
+    connect(m_menus, &Menus::reopeningToggled, m_connector, &Connector::setReopening);
     connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);
     connect(&m_workbench.stop, &StopControl::changed, this, &MainWindow::onLines);

@@ -2,6 +2,8 @@
 #include "app/dxl/connection.h"
 
 #include "app/dxl/options.h"
+#include "core/bus/networklinefactory.h"
+#include "core/bus/networkaddress_values.h"
 #include "core/bus/seriallinefactory.h"
 
 #include <cstdio>
@@ -27,7 +29,9 @@ Connection::Connection(std::unique_ptr<Line> line)
 
 Result<std::unique_ptr<Connection>> Connection::open(const Options &options)
 {
-    SerialLineFactory factory;
+    SerialLineFactory serial;
+    NetworkLineFactory network;
+    LineFactory &factory = network.knows(options.port) ? static_cast<LineFactory &>(network) : serial;
     auto line = factory.open(options.port, options.baudRate);
     if (!line && line.error().kind == ErrorKind::PortNotFound && options.port == u"sim") {
         return failure(ErrorKind::PortNotFound,
@@ -51,6 +55,10 @@ Error withAdvice(const Error &error, const Options &options)
     if (error.kind != ErrorKind::NothingReceived && error.kind != ErrorKind::NoHeader)
         return error;
     Error advised = error;
+    if (isRateTheServers(options.port)) {
+        advised.text += QStringLiteral("; the rate is the server's, is it that of the device?");
+        return advised;
+    }
     advised.text += QStringLiteral(" at %1 bps; to look for it at every baud rate: dxl --port %2 scan --bauds all")
                         .arg(QString::number(options.baudRate), options.port);
     return advised;

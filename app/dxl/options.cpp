@@ -48,7 +48,10 @@ void describe(CLI::App &app, Typed &typed)
     app.fallthrough(); // --port may also stand behind the command
     app.require_subcommand(0, 1);
     app.set_version_flag("--version", "dxl " DYNASCOPE_VERSION);
-    app.add_option("--port", typed.port, "The line's port: /dev/ttyUSB0")->type_name("PATH");
+    app.add_option("--port", typed.port,
+                   "The line's port: /dev/ttyUSB0, or a serial server: tcp://HOST:PORT (raw bytes, "
+                   "the rate is the server's), rfc2217://HOST:PORT (sets the rate)")
+        ->type_name("PORT");
     app.add_option("--baud", typed.baudRate, "The line's baud rate, bits per second (57600)")
         ->type_name("N")
         ->check(CLI::Range(1, 100'000'000).description({}));

@@ -38,11 +38,15 @@ QString names(const std::vector<int> &bauds)
 void adviseAfterSilence(const Work &work, const std::vector<int> &tried)
 {
     const Options &options = work.options;
-    QString text = QStringLiteral("nobody answered at %1 bps, IDs %2 to %3")
-                       .arg(names(tried)).arg(options.ids.first).arg(options.ids.last);
-    text += tried.size() > 1
-        ? QStringLiteral("; is the bus powered and connected?")
-        : QStringLiteral("; to look at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
+    const bool serversRate = !work.bus.line().canSetBaudRate();
+    QString text = QStringLiteral("nobody answered at %1, IDs %2 to %3")
+                       .arg(serversRate ? QStringLiteral("the server's rate") : names(tried) + QStringLiteral(" bps"))
+                       .arg(options.ids.first)
+                       .arg(options.ids.last);
+    text += serversRate ? QStringLiteral("; is it that of the devices, and are they powered?")
+            : tried.size() > 1
+                ? QStringLiteral("; is the bus powered and connected?")
+                : QStringLiteral("; to look at every baud rate: dxl --port %1 scan --bauds all").arg(options.port);
     work.output.note(text);
 }
 
@@ -52,12 +56,14 @@ Result<std::size_t> scanAt(const Work &work, int baud)
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
     // Printed when the rate is done: what makes an answer doubtful comes after it.
-    const auto found = scanBaud(work.bus, work.options.ids.first, work.options.ids.last, {});
+    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last}, {});
     if (!found)
         return tl::unexpected(found.error());
-    for (const Found &device : *found)
+    for (const Found &device : found->devices)
         print(work, device);
-    return found->size();
+    if (!found->unreadable.isEmpty())
+        work.output.note(QStringLiteral("%1 bps: %2").arg(work.bus.line().baudRate()).arg(found->unreadable));
+    return found->devices.size();
 }
 
 } // namespace
@@ -68,7 +74,14 @@ ExitCode scanCommand(const Work &work)
     std::vector<int> silent;
     std::size_t found = 0;
     bool failed = false;
-    for (const int baud : work.options.bauds) {
+    std::vector<int> bauds = work.options.bauds;
+    if (!work.bus.line().canSetBaudRate()) {
+        if (bauds.size() > 1)
+            work.output.note(
+                QStringLiteral("the rate of %1 is the server's: only that one is scanned").arg(work.bus.line().name()));
+        bauds = {work.bus.line().baudRate()};
+    }
+    for (const int baud : bauds) {
         const auto count = scanAt(work, baud);
         if (count) {
             found += *count;
@@ -81,7 +94,7 @@ ExitCode scanCommand(const Work &work)
             return ExitCode::Failed;
         // Of several rates nobody expects every port to do each; garbage at one of them doesn't end the search.
         const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;
-        failed = failed || !unsuitable || work.options.bauds.size() == 1;
+        failed = failed || !unsuitable || bauds.size() == 1;
     }
     if (found == 0 && !failed && !silent.empty())
         adviseAfterSilence(work, silent);

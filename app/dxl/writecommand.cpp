@@ -3,6 +3,7 @@
 #include "app/dxl/directjob.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
+#include "core/bus/messages.h"
 #include "core/session/deviceplace.h"
 #include "core/table/units.h"
 
@@ -31,6 +32,10 @@ Result<Assignment> prepare(Device &device, const RegisterArgument &argument)
         auto data = parseRawValue(argument);
         if (!data)
             return tl::unexpected(data.error());
+        const Field *baud = device.table() ? device.table()->find(u"Baud Rate") : nullptr;
+        const int end = argument.address + static_cast<int>(data->size());
+        if (baud && baud->address >= argument.address && baud->address < end && !device.bus().line().canSetBaudRate())
+            return tl::unexpected(messages::deviceRateBound(device.bus().line().name()));
         const Field *known = device.table() ? device.table()->at(argument.address) : nullptr;
         if (!known || known->size != argument.length)
             return Assignment{argument, nullptr, 0, std::move(*data)};

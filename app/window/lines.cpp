@@ -7,7 +7,7 @@ namespace dynascope {
 
 bool Lines::knows(const QString &name) const
 {
-    return name == SimulatedPortName || m_serial.knows(name);
+    return name == SimulatedPortName || m_network.knows(name) || m_serial.knows(name);
 }
 
 void Lines::prepare(const QString &name)
@@ -25,6 +25,13 @@ void Lines::prepare(const QString &name)
 
 Result<std::unique_ptr<Line>> Lines::open(const QString &name, int baudRate)
 {
+    return openUnless(false, name, baudRate);
+}
+
+Result<std::unique_ptr<Line>> Lines::openUnless(const std::atomic<bool> &cancel, const QString &name, int baudRate)
+{
+    if (m_network.knows(name))
+        return m_network.openUnless(cancel, name, baudRate);
     if (name != SimulatedPortName)
         return m_serial.open(name, baudRate);
     if (!m_demoPath)

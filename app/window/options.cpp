@@ -28,9 +28,11 @@ WindowOptions parseOptions(const QApplication &application)
         QStringLiteral("Finds DYNAMIXEL servos (Protocol 2.0) on a serial bus, configures them and plots what they do."));
     parser.addHelpOption();
     parser.addVersionOption();
-    const QCommandLineOption port(QStringLiteral("port"),
-                                  QStringLiteral("Open this port: a path, or \"sim\" for the simulated bus."),
-                                  QStringLiteral("PORT"));
+    const QCommandLineOption port(
+        QStringLiteral("port"),
+        QStringLiteral("Open this port: a path, tcp://HOST:PORT or rfc2217://HOST:PORT for a serial "
+                       "server, or \"sim\" for the simulated bus."),
+        QStringLiteral("PORT"));
     const QCommandLineOption baud(QStringLiteral("baud"), QStringLiteral("The line's baud rate, bits per second."),
                                   QStringLiteral("RATE"));
     QCommandLineOption picture(

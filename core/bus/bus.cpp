@@ -162,6 +162,10 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     learn(request, result, waiting.sent);
     remember(request, result, waiting.sent);
     m_quality.count(request, result, waiting.sent);
+    for (const Result<Reply> &reply : result.replies) {
+        if (reply && reply->bytes > 0)
+            m_heardAt[reply->id] = reply->at;
+    }
     return {};
 }
 
@@ -199,6 +203,8 @@ Result<void> Bus::prepare()
 {
     if (isStopped())
         return tl::unexpected(messages::stopped());
+    if (isCancelled())
+        return tl::unexpected(messages::cancelled());
     const Result<ByteView> waiting = m_channel.receive(m_channel.now());
     if (!waiting)
         return tl::unexpected(waiting.error());
@@ -214,7 +220,7 @@ Result<void> Bus::prepare()
         return {};
     const LineTime quiet = timing::silence(m_channel.line());
     const LineTime sofar = std::max(LineTime(), m_channel.now() - std::max(m_channel.lastByteAt(), m_channel.sentBy()));
-    if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit, Channel::Heed::Stop);
+    if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit, Channel::Heed::Orders);
         !settled)
         return settled;
     m_unsettled = false;
@@ -241,13 +247,11 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
 {
     const Line &line = m_channel.line();
     if (request.shape == ReplyShape::None && !m_echoes)
-        return m_channel.waitUntil(waiting.sent, Channel::Heed::Stop);
+        return m_channel.waitUntil(waiting.sent, Channel::Heed::Orders);
     waiting.limit = longestWait(request, waiting);
     while (!m_collector.isComplete()) {
-        if (isStopped())
-            return tl::unexpected(messages::stopped());
-        if (request.shape == ReplyShape::Anyone && m_cancel && m_cancel->load(std::memory_order_acquire))
-            return tl::unexpected(messages::cancelled());
+        if (Result<void> may = m_channel.mayWait(); !may)
+            return may;
         const LineTime now = m_channel.now();
         LineTime until = deadline(request, waiting);
         if (m_collector.isMidPacket()) {
@@ -342,6 +346,17 @@ void Bus::explainSilence(const Request &request, ExchangeResult &result) const
         else if (level < 1)
             reply = tl::unexpected(messages::silentByLevel(id, level));
     }
+}
+
+std::vector<std::uint8_t> Bus::alive() const
+{
+    constexpr LineTime Lately = 10s;
+    std::vector<std::uint8_t> ids;
+    for (std::size_t id = 0; id < m_heardAt.size(); ++id) {
+        if (m_heardAt[id] > LineTime() && m_channel.now() - m_heardAt[id] < Lately)
+            ids.push_back(static_cast<std::uint8_t>(id));
+    }
+    return ids;
 }
 
 BusStatistics Bus::statistics() const

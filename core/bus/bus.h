@@ -56,18 +56,22 @@ public:
     /// Lets time pass; what comes meanwhile is discarded.
     Result<void> wait(LineTime duration)
     {
-        return m_channel.waitUntil(m_channel.now() + duration, Channel::Heed::Stop);
+        return m_channel.waitUntil(m_channel.now() + duration, Channel::Heed::Orders);
     }
 
     /// Drain, set, discard, two byte times. Error: the old rate stays.
     Result<void> setBaudRate(int bitsPerSecond) { return m_channel.setBaudRate(bitsPerSecond); }
 
     bool isStopped() const { return m_channel.isStopped(); }
+    /// Who has answered within the last seconds, by ID.
+    std::vector<std::uint8_t> alive() const;
     BusStatistics statistics() const;
     LineQuality quality() const; ///< per device, too
 
-    /// A broadcast Ping, which takes up to 0.8 s, ends with Cancelled once this is set. Not owned; may be null.
-    void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
+    /// Once this is set no exchange begins or is repeated, and what is waited for ends with Cancelled as soon as the
+    /// packet has left: a broadcast Ping may take 0.8 s, Clear 3 s. Not owned; may be null.
+    void setCancel(const std::atomic<bool> *cancel) { m_channel.setCancel(cancel); }
+    bool isCancelled() const { return m_channel.isCancelled(); }
 
     /// An idle line is looked at now and then, or nobody would notice that it was unplugged.
     void look() { (void)prepare(); }
@@ -101,9 +105,9 @@ private:
     Collector m_collector{m_late};
     LearnedTiming m_timing;
     QualityLog m_quality;
-    const std::atomic<bool> *m_cancel = nullptr;
     std::array<Traits, 256> m_traits; ///< by ID, where m_known says so
     std::bitset<256> m_known;
+    std::array<LineTime, 256> m_heardAt{}; ///< by ID; 0: never
     Tap m_tap;
     bool m_echoes = false;    ///< the adapter returns what is sent
     bool m_unsettled = false; ///< something is or may be coming that belongs to an earlier request

@@ -17,7 +17,7 @@ class BusWorker;
 class Outbox;
 
 /// An open line's thread: owns Line, Bus and Poller, runs jobs, polls in between. Lives on the GUI thread; its signals
-/// come there. Closing waits for the exchange in flight only.
+/// come there.
 class BusThread : public QObject
 {
     Q_OBJECT
@@ -30,8 +30,9 @@ public:
     /// Delivers nothing any more: close() first where a job's end matters.
     ~BusThread() override;
 
-    /// Waits for the exchange in flight (an exclusive scope: for its end), closes the line and delivers Cancelled for
-    /// what was queued, before it returns.
+    /// Ends what runs as soon as the packet in flight has left, even in an exclusive scope, closes the line and
+    /// delivers Cancelled for what was running or queued, before it returns. Only STOP's packets still go out,
+    /// unverified.
     void close();
 
     QString name() const { return m_name; }
@@ -53,7 +54,7 @@ public:
                 return std::function<void()>([value, done] { done(std::move(*value)); });
             });
     }
-    void cancel(JobId job); ///< waiting or running; it reports Cancelled at its next checkpoint
+    void cancel(JobId job); ///< waiting or running; it reports Cancelled at its next exchange or checkpoint
 
     /// Replaces what is polled when no job runs. Polling pauses while the line works at another baud rate for a job.
     void setPollPlan(PollPlan plan);

@@ -48,8 +48,16 @@ public:
     void post(std::function<void()> note) override { m_worker.m_outbox.deliver(m_job.recipient, std::move(note)); }
 
 protected:
-    void enterExclusive() override { ++m_worker.m_exclusive; }
-    void leaveExclusive() override { --m_worker.m_exclusive; }
+    void enterExclusive() override
+    {
+        ++m_worker.m_exclusive;
+        bus().setCancel(&m_worker.m_closing);
+    }
+    void leaveExclusive() override
+    {
+        if (--m_worker.m_exclusive == 0)
+            bus().setCancel(m_job.cancelled.get());
+    }
 
 private:
     Result<void> mayGoOn()
@@ -58,10 +66,10 @@ private:
             return tl::unexpected(*bus().lost());
         if (bus().isStopped())
             return tl::unexpected(messages::stopped());
-        if (m_worker.m_exclusive > 0)
-            return {};
         if (m_worker.m_closing)
             return tl::unexpected(messages::closed(m_worker.m_name));
+        if (m_worker.m_exclusive > 0)
+            return {};
         if (m_job.cancelled->load(std::memory_order_acquire))
             return tl::unexpected(messages::cancelled());
         return {};
@@ -119,13 +127,14 @@ void BusWorker::refuse(const QueuedJob &job, const Error &error)
 
 void BusWorker::run()
 {
-    Result<std::unique_ptr<Line>> line = m_factory.open(m_name, m_workingBaud);
+    Result<std::unique_ptr<Line>> line = m_factory.openUnless(m_closing, m_name, m_workingBaud);
     if (!line) {
         end(BusThread::State::Closed, line.error());
         return;
     }
     m_line = std::move(*line);
     m_bus = std::make_unique<Bus>(*m_line, &m_stopRequested);
+    m_bus->setCancel(&m_closing);
     m_poller = std::make_unique<Poller>(*m_bus);
     tellState(BusThread::State::Open);
     loop();
@@ -143,13 +152,15 @@ void BusWorker::run()
 
 void BusWorker::loop()
 {
-    while (!m_closing && !m_bus->lost()) {
+    while (!m_bus->lost()) {
         runOrders();
         tellQuality(false);
         if (m_stopRequested.load(std::memory_order_acquire)) {
-            runStop();
+            runStop(); // also where somebody closes the line right after it
             continue;
         }
+        if (m_closing)
+            return;
         if (std::optional<QueuedJob> job = m_queue.take()) {
             runJob(std::move(*job));
             continue;
@@ -180,7 +191,7 @@ void BusWorker::runJob(QueuedJob job)
         delivery = job.job(nullptr, *m_bus->lost());
     else
         delivery = job.job(&context, {});
-    m_bus->setCancel(nullptr);
+    m_bus->setCancel(&m_closing);
     m_queue.finished(job.id);
     tellStatistics(true);
     m_outbox.deliver(job.recipient, std::move(delivery));
@@ -211,6 +222,7 @@ void BusWorker::idle()
 
 void BusWorker::runStop()
 {
+    runOrders(); // targets that were handed over just before it was pressed
     const int present = m_line->baudRate();
     const Result<void> sent = sendTorqueOff(*m_bus, m_stopPlan, m_workingBaud);
     // From here on exchanges work again; pressed once more, STOP begins anew.
@@ -218,7 +230,7 @@ void BusWorker::runStop()
     std::vector<StopOutcome> outcomes;
     if (sent) {
         outcomes = verifyTorqueOff(*m_bus, m_stopPlan, m_workingBaud, present);
-        if (m_stopRequested.load(std::memory_order_acquire))
+        if (m_bus->isStopped() || m_bus->isCancelled())
             return;
     } else {
         for (const StopTarget &target : m_stopPlan.targets())

@@ -17,6 +17,15 @@ constexpr LineTime DrainMargin = 2ms;
 
 } // namespace
 
+Result<void> Channel::mayWait() const
+{
+    if (isStopped())
+        return tl::unexpected(messages::stopped());
+    if (isCancelled() && m_line.now() >= m_sentBy)
+        return tl::unexpected(messages::cancelled());
+    return {};
+}
+
 Result<LineTime> Channel::send(ByteView packet)
 {
     const LineTime begin = std::max(m_line.now(), m_sentBy);
@@ -41,8 +50,8 @@ Result<ByteView> Channel::receive(LineTime until)
 Result<void> Channel::waitUntil(LineTime time, Heed heed)
 {
     while (m_line.now() < time) {
-        if (heed == Heed::Stop && isStopped())
-            return tl::unexpected(messages::stopped());
+        if (Result<void> may = heed == Heed::Orders ? mayWait() : Result<void>(); !may)
+            return may;
         const Result<ByteView> received = receive(std::min(time, m_line.now() + timing::Slice));
         if (!received)
             return tl::unexpected(received.error());
@@ -56,8 +65,8 @@ Result<void> Channel::settle(LineTime quiet, LineTime limit, Heed heed)
     const LineTime end = m_line.now() + limit;
     LineTime silentSince = m_line.now();
     while (m_line.now() < end && m_line.now() - silentSince < quiet) {
-        if (heed == Heed::Stop && isStopped())
-            return tl::unexpected(messages::stopped());
+        if (Result<void> may = heed == Heed::Orders ? mayWait() : Result<void>(); !may)
+            return may;
         const Result<ByteView> received =
             receive(std::min({end, silentSince + quiet, m_line.now() + timing::Slice}));
         if (!received)

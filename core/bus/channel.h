@@ -9,7 +9,7 @@
 namespace dynascope {
 
 /// A line as exchanges need it: knows when what was sent has left the wire, cuts every wait into slices that look at
-/// the stop flag, remembers that the port is gone. Bus thread.
+/// the stop flag and the cancel flag, remembers that the port is gone. Bus thread.
 class Channel
 {
 public:
@@ -19,6 +19,11 @@ public:
     const Line &line() const { return m_line; }
     LineTime now() const { return m_line.now(); }
     bool isStopped() const { return m_stop && m_stop->load(std::memory_order_acquire); }
+    /// Not owned; may be null.
+    void setCancel(const std::atomic<bool> *cancel) { m_cancel = cancel; }
+    bool isCancelled() const { return m_cancel && m_cancel->load(std::memory_order_acquire); }
+    /// Stopped; or Cancelled, once what is on its way out has left: a port that is closed under it would cut it.
+    Result<void> mayWait() const;
 
     /// Hands a packet to the port; returns when it begins to leave. Looks at no stop flag.
     Result<LineTime> send(ByteView packet);
@@ -29,7 +34,7 @@ public:
     /// What came until `until`, or at once where something did; valid until the next call. May be nothing.
     Result<ByteView> receive(LineTime until);
 
-    enum class Heed { Stop, Nothing };
+    enum class Heed { Orders, Nothing }; ///< orders: STOP and cancel
     /// What comes meanwhile is discarded.
     Result<void> waitUntil(LineTime time, Heed heed);
     /// Waits until nothing has come for `quiet`, at most for `limit`, and discards what did.
@@ -50,6 +55,7 @@ private:
 
     Line &m_line;
     const std::atomic<bool> *m_stop;
+    const std::atomic<bool> *m_cancel = nullptr;
     std::optional<Error> m_lost;
     Bytes m_received, m_lastSent;
     LineTime m_sentBy{}, m_lastByteAt{};

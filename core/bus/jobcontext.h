@@ -24,7 +24,7 @@ public:
     /// Runs `note` on the GUI thread if the job's context object still lives there. For progress.
     virtual void post(std::function<void()> note) = 0;
 
-    /// While one is held, only STOP gets in: between the first and last write of an ID or baud change.
+    /// While one is held, only STOP and closing get in: between the first and last write of an ID or baud change.
     class Exclusive
     {
     public:

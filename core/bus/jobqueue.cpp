@@ -80,7 +80,6 @@ std::vector<QueuedJob> JobQueue::close()
     // Between the two locks another may have come.
     jobs.insert(jobs.end(), std::make_move_iterator(m_jobs.begin()), std::make_move_iterator(m_jobs.end()));
     m_jobs.clear();
-    m_orders.clear();
     for (const auto &[running, flag] : m_running)
         flag->store(true, std::memory_order_release);
     m_awake = true;

@@ -36,7 +36,8 @@ public:
 
     /// False once closed: then `job` is left as it was.
     bool push(QueuedJob &job);
-    /// Something small that is no job: a new poll plan. Runs before the next job or poll; dropped once closed.
+    /// Something small that is no job: a new poll plan. Runs before the next job, poll or STOP; none is
+    /// taken once closed.
     void pushOrder(Order order);
 
     /// The first of the highest priority, if that is above `above`.

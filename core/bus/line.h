@@ -41,6 +41,8 @@ public:
     /// Waits for nothing: the caller has drained the line. Fails with PortUnsuitable where the port can't do it (more
     /// than 3 % off); the old rate stays.
     virtual Result<void> setBaudRate(int bitsPerSecond) = 0;
+    /// False: somebody else decides on the rate, baudRate() is what we were told, and setBaudRate() always fails.
+    virtual bool canSetBaudRate() const { return true; }
 
     /// How late an answer may come through on account of the host: adapter latency, scheduling.
     virtual LineTime hostAllowance() const = 0;

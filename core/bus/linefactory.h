@@ -5,6 +5,7 @@
 
 #include <QStringList>
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,12 @@ public:
     virtual void prepare(const QString &name) { Q_UNUSED(name) }
     /// On the thread that will use the line. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.
     virtual Result<std::unique_ptr<Line>> open(const QString &name, int baudRate) = 0;
+    /// The same for lines that may take seconds to open: fails with Cancelled soon after `cancel` is set.
+    virtual Result<std::unique_ptr<Line>> openUnless(const std::atomic<bool> &cancel, const QString &name, int baudRate)
+    {
+        Q_UNUSED(cancel)
+        return open(name, baudRate);
+    }
 };
 
 /// A port that could be opened.
@@ -29,6 +36,9 @@ struct PortInfo {
     QString name;        ///< what LineFactory::open takes
     QString description; ///< what a person recognises: "FT232H (ROBOTIS U2D2)"
     QString serialNumber;
+    /// The adapter itself, wherever it is plugged in: maker, model, serial number, which of its ports. Empty where it
+    /// has no serial number, and so can't be told from another of its kind.
+    QString identity = {};
 
     friend bool operator==(const PortInfo &, const PortInfo &) = default;
 };

@@ -16,6 +16,9 @@ Error damagedCrc(std::uint8_t id);
 Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others);
 Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want);
 Error onlyLate(std::uint8_t id);
+/// What was seen of one device, and who else on the line is alive.
+Error withOthers(Error error, const std::vector<std::uint8_t> &others);
+QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found
 Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);
@@ -40,6 +43,24 @@ Error portNotSerial(const QString &port);
 Error portFailed(const QString &port, const QString &reason); ///< opening failed otherwise
 Error portLost(const QString &port);
 Error rateRefused(const QString &port, int wanted, int made); ///< `made` 0: the port refused it
+
+/// @name Serial servers on the network; `port` is the whole name, "tcp://host:4000"
+/// @{
+Error addressMalformed(const QString &port);
+Error portNumberWrong(const QString &port, const QString &number);
+Error hostUnknown(const QString &port, const QString &host);
+Error nameServerSilent(const QString &port, const QString &host);
+Error hostSilent(const QString &port, const QString &host, LineTime waited);
+Error hostUnreachable(const QString &port, const QString &host, const QString &reason);
+Error connectionRefused(const QString &port);
+Error connectionEnded(const QString &port,
+                      const QString &words); ///< at once; `words`: what the server said, or nothing
+Error connectionLost(const QString &port);
+Error notRfc2217(const QString &port);
+Error rateNotConfirmed(const QString &port, int wanted);
+Error rateIsTheServers(const QString &port, int wanted);
+Error deviceRateBound(const QString &port); ///< a device may not be moved away from the server's rate
+/// @}
 
 QString durationText(LineTime duration); ///< "0.8 ms", "16 ms", "1.2 s"
 

@@ -10,23 +10,6 @@ using namespace std::chrono_literals;
 
 namespace {
 
-Result<Reply> single(Bus &bus, const Request &request, int retries = 2)
-{
-    Result<ExchangeResult> result = bus.exchange(request, retries);
-    if (!result)
-        return tl::unexpected(result.error());
-    if (result->replies.empty()) // a broadcast: nobody answers
-        return Reply{request.packet.id, DeviceError::None, false, {}, bus.line().now()};
-    return std::move(result->replies.front());
-}
-
-Result<void> outcome(const Result<Reply> &reply)
-{
-    if (!reply)
-        return tl::unexpected(reply.error());
-    return {};
-}
-
 /// Sent, but whether it arrived isn't known.
 bool isLost(const Error &error)
 {
@@ -40,6 +23,29 @@ bool isLost(const Error &error)
     case ErrorKind::LateAnswer: return true;
     default: return false;
     }
+}
+
+Result<Reply> single(Bus &bus, const Request &request, int retries = 2)
+{
+    Result<ExchangeResult> result = bus.exchange(request, retries);
+    if (!result)
+        return tl::unexpected(result.error());
+    if (result->replies.empty()) // a broadcast: nobody answers
+        return Reply{request.packet.id, DeviceError::None, false, {}, bus.line().now()};
+    Result<Reply> &reply = result->replies.front();
+    if (!reply && isLost(reply.error())) {
+        std::vector<std::uint8_t> others = bus.alive();
+        std::erase(others, request.packet.id);
+        return tl::unexpected(messages::withOthers(std::move(reply.error()), others));
+    }
+    return std::move(reply);
+}
+
+Result<void> outcome(const Result<Reply> &reply)
+{
+    if (!reply)
+        return tl::unexpected(reply.error());
+    return {};
 }
 
 std::vector<Traits> traitsOf(const Bus &bus, const auto &items)

@@ -53,8 +53,21 @@ struct Found {
     friend bool operator==(const Found &, const Found &) = default;
 };
 
+struct ScanRequest {
+    int firstId = 0, lastId = MaximumId;
+    /// One Ping after the other instead of the broadcast one, for buses on which that fails. Slow: each absent ID costs
+    /// a whole deadline.
+    bool sweep = false;
+};
+
+/// What a scan at one rate came to.
+struct BaudScan {
+    std::vector<Found> devices; ///< by ID
+    QString unreadable;         ///< empty, or what came that belongs to none of them
+};
+
 /// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. `found` is called as they
-/// come, and once more for a device that turns out doubtful. Answers beyond [firstId, lastId] are dropped.
-Result<std::vector<Found>> scanBaud(Bus &bus, int firstId, int lastId, const std::function<void(const Found &)> &found);
+/// come, and once more for a device that turns out doubtful. Answers beyond the wanted IDs are dropped.
+Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found);
 
 } // namespace dynascope

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/messages.h"
 #include "core/bus/operations.h"
 
 #include <algorithm>
@@ -36,8 +37,7 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
     if (!answer)
         return tl::unexpected(answer.error());
     const quint64 before = bus.statistics().bytesReceived;
-    const LineTime listen = bus.line().hostAllowance() + 1500us;
-    if (Result<void> listened = bus.settle(listen, listen + 10ms); !listened)
+    if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
         return tl::unexpected(listened.error());
     const bool more = bus.statistics().bytesReceived != before || answer->seen.strayPackets > 0;
     const Result<Reply> &reply = answer->replies.front();
@@ -69,8 +69,7 @@ Result<bool> confirmAll(Bus &bus, const std::vector<Found> &devices)
         clean = clean && reply && foundFrom(*reply, found.baudRate).modelNumber == found.modelNumber
             && seen.strayPackets == 0 && seen.damagedPackets == 0 && seen.noiseBytes == 0;
     }
-    const LineTime listen = bus.line().hostAllowance() + 1500us;
-    if (Result<void> listened = bus.settle(listen, listen + 10ms); !listened)
+    if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
         return tl::unexpected(listened.error());
     return clean && bus.statistics().bytesReceived - before == heard; // and nothing came in between
 }
@@ -90,26 +89,54 @@ std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Foun
     return ids;
 }
 
-/// Something answered the broadcast that could not be read: looks for it one ID at a time.
-Result<void> probeSuspects(Bus &bus, const std::set<std::uint8_t> &ids, int baudRate, std::vector<Found> &devices,
+/// Looks for devices one ID at a time.
+Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, BaudScan &scan,
     const std::function<void(const Found &)> &found)
 {
     for (const std::uint8_t id : ids) {
-        const Result<ExchangeResult> answer = bus.exchange(pingRequest(id), 1);
+        const Result<ExchangeResult> answer = bus.exchange(pingRequest(id), retries);
         if (!answer)
             return tl::unexpected(answer.error());
-        if (answer->seen.bytesReceived == 0)
-            continue;
-        Found device;
         const Result<Reply> &reply = answer->replies.front();
+        const Observations &seen = answer->seen;
+        if (!reply && seen.damagedPackets == 0 && seen.noiseBytes == 0)
+            continue; // nobody, or only the adapter's echo
+        Found device;
         if (reply)
-            device = foundFrom(*reply, baudRate);
+            device = foundFrom(*reply, bus.line().baudRate());
         device.id = id;
-        device.baudRate = baudRate;
-        if (!reply || answer->seen.damagedPackets > 0)
+        device.baudRate = bus.line().baudRate();
+        if (!reply || seen.damagedPackets > 0)
             device.doubt = sharedId(id) + QStringLiteral(": their answers collide");
-        devices.push_back(device);
+        scan.devices.push_back(device);
         if (found)
+            found(device);
+    }
+    return {};
+}
+
+Result<BaudScan> sweep(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found)
+{
+    std::set<std::uint8_t> ids;
+    for (int id = wanted.firstId; id <= std::min<int>(wanted.lastId, MaximumId); ++id)
+        ids.insert(static_cast<std::uint8_t>(id));
+    BaudScan scan;
+    if (Result<void> asked = askEach(bus, ids, 0, scan, found); !asked)
+        return tl::unexpected(asked.error());
+    return scan;
+}
+
+/// The second look, one by one, where the first was not clean.
+Result<void> doubtEach(Bus &bus, const Observations &seen, BaudScan &scan, const std::function<void(const Found &)> &found)
+{
+    for (Found &device : scan.devices) {
+        Result<QString> doubt = doubtOf(bus, device);
+        if (!doubt)
+            return tl::unexpected(doubt.error());
+        device.doubt = *doubt;
+        if (device.doubt.isEmpty() && std::ranges::count(seen.strayIds, device.id) > 0)
+            device.doubt = sharedId(device.id) + QStringLiteral(": both answered the scan");
+        if (!device.doubt.isEmpty() && found)
             found(device);
     }
     return {};
@@ -117,40 +144,37 @@ Result<void> probeSuspects(Bus &bus, const std::set<std::uint8_t> &ids, int baud
 
 } // namespace
 
-Result<std::vector<Found>> scanBaud(Bus &bus, int firstId, int lastId, const std::function<void(const Found &)> &found)
+Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found)
 {
-    const int baudRate = bus.line().baudRate();
-    std::vector<Found> devices;
-    const Result<ExchangeResult> answers = bus.broadcastPing(lastId, [&](const Reply &reply) {
-        if (reply.id < firstId || reply.id > lastId)
+    if (wanted.sweep)
+        return sweep(bus, wanted, found);
+    BaudScan scan;
+    const Result<ExchangeResult> answers = bus.broadcastPing(wanted.lastId, [&](const Reply &reply) {
+        if (reply.id < wanted.firstId || reply.id > wanted.lastId)
             return;
-        devices.push_back(foundFrom(reply, baudRate));
+        scan.devices.push_back(foundFrom(reply, bus.line().baudRate()));
         if (found)
-            found(devices.back());
+            found(scan.devices.back());
     });
     if (!answers)
         return tl::unexpected(answers.error());
-    const std::vector<std::uint8_t> &twice = answers->seen.strayIds;
-    const Result<bool> sure = confirmAll(bus, devices);
+    const Observations &seen = answers->seen;
+    const Result<bool> sure = confirmAll(bus, scan.devices);
     if (!sure)
         return tl::unexpected(sure.error());
-    for (Found &device : devices) {
-        if (*sure && twice.empty())
-            break;
-        Result<QString> doubt = doubtOf(bus, device);
-        if (!doubt)
-            return tl::unexpected(doubt.error());
-        device.doubt = *doubt;
-        if (device.doubt.isEmpty() && std::ranges::count(twice, device.id) > 0)
-            device.doubt = sharedId(device.id) + QStringLiteral(": both answered the scan");
-        if (!device.doubt.isEmpty() && found)
-            found(device);
+    if (!*sure || !seen.strayIds.empty()) {
+        if (Result<void> doubted = doubtEach(bus, seen, scan, found); !doubted)
+            return tl::unexpected(doubted.error());
     }
-    const std::set<std::uint8_t> ids = suspects(answers->seen, devices, firstId, lastId);
-    if (Result<void> probed = probeSuspects(bus, ids, baudRate, devices, found); !probed)
+    const std::size_t known = scan.devices.size();
+    const std::set<std::uint8_t> ids = suspects(seen, scan.devices, wanted.firstId, wanted.lastId);
+    if (Result<void> probed = askEach(bus, ids, 1, scan, found); !probed)
         return tl::unexpected(probed.error());
-    std::ranges::sort(devices, {}, &Found::id);
-    return devices;
+    const bool doubtful = std::ranges::any_of(scan.devices, [](const Found &one) { return !one.doubt.isEmpty(); });
+    if (scan.devices.size() == known && !doubtful && (seen.noiseBytes > 0 || seen.damagedPackets > 0))
+        scan.unreadable = messages::unreadable(seen.bytesReceived);
+    std::ranges::sort(scan.devices, {}, &Found::id);
+    return scan;
 }
 
 } // namespace dynascope

@@ -4,7 +4,6 @@
 #include "core/bus/messages.h"
 
 #include <QSerialPort>
-#include <QSerialPortInfo>
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +54,7 @@ Result<void> SerialLine::start(int baudRate, const SerialOptions &options)
     if (!m_port->open(QIODevice::ReadWrite)) {
         // The guard could open it: what is left is somebody's lock file, or a driver's own reason.
         if (m_port->error() == QSerialPort::PermissionError)
-            return tl::unexpected(messages::portBusy(m_name, {}));
+            return tl::unexpected(messages::portBusy(m_name, posix::holderOf(m_guard.path())));
         return tl::unexpected(messages::portFailed(m_name, m_port->errorString()));
     }
     m_port->setDataBits(QSerialPort::Data8);
@@ -189,24 +188,6 @@ Result<std::unique_ptr<Line>> SerialLineFactory::open(const QString &name, int b
     if (!line)
         return tl::unexpected(line.error());
     return std::unique_ptr<Line>(std::move(*line));
-}
-
-std::vector<PortInfo> SerialPortList::ports() const
-{
-    std::vector<PortInfo> ports;
-    const QList<QSerialPortInfo> infos = QSerialPortInfo::availablePorts();
-    for (const QSerialPortInfo &info : infos) {
-        QString text = info.description();
-        if (!info.manufacturer().isEmpty() && !text.contains(info.manufacturer()))
-            text = text.isEmpty() ? info.manufacturer() : QStringLiteral("%1 (%2)").arg(text, info.manufacturer());
-        ports.push_back({info.systemLocation(), text, info.serialNumber()});
-    }
-    std::ranges::stable_sort(ports, [](const PortInfo &a, const PortInfo &b) {
-        const bool usbA = a.name.contains(QLatin1String("USB")) || a.name.contains(QLatin1String("ACM"));
-        const bool usbB = b.name.contains(QLatin1String("USB")) || b.name.contains(QLatin1String("ACM"));
-        return usbA != usbB ? usbA : a.name < b.name;
-    });
-    return ports;
 }
 
 } // namespace dynascope

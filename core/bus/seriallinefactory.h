@@ -3,6 +3,7 @@
 
 #include "core/bus/linefactory.h"
 
+#include <chrono>
 #include <optional>
 
 namespace dynascope {
@@ -26,11 +27,18 @@ private:
     const SerialOptions m_options;
 };
 
-/// The machine's serial ports, likely adapters first.
+/// The machine's serial ports, likely adapters first. Cheap enough to be asked once a second: the system's list, which
+/// takes it 15 ms, is made anew only after something has changed.
 class SerialPortList final : public PortList
 {
 public:
     std::vector<PortInfo> ports() const override;
+
+private:
+    mutable QStringList m_traces; ///< what there was at the last look
+    mutable std::vector<PortInfo> m_ports;
+    mutable std::chrono::steady_clock::time_point m_settledAt;
+    mutable bool m_isSettled = false; ///< the list was made after everything had settled
 };
 
 } // namespace dynascope

@@ -7,6 +7,7 @@
 #include <QFile>
 #include <QFileInfo>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -24,30 +25,22 @@
 namespace dynascope::posix {
 namespace {
 
-/// A program that has the device open, where the system lets us see that. Empty: unknown.
-QString holderOf(const QString &path)
+/// What this process has open, as far as we may know.
+QStringList filesOf(const QString &process)
 {
-#ifdef __linux__
-    const QStringList processes = QDir(QStringLiteral("/proc")).entryList(QDir::Dirs | QDir::NoDotAndDotDot);
-    for (const QString &process : processes) {
-        bool isNumber = false;
-        const qint64 number = process.toLongLong(&isNumber);
-        if (!isNumber || number == getpid())
-            continue;
-        const QDir descriptors(QStringLiteral("/proc/%1/fd").arg(process));
-        const QFileInfoList links = descriptors.entryInfoList(QDir::AllEntries | QDir::System | QDir::NoDotAndDotDot);
-        for (const QFileInfo &link : links) {
-            if (link.symLinkTarget() != path)
-                continue;
-            QFile name(QStringLiteral("/proc/%1/comm").arg(process));
-            const QByteArray text = name.open(QIODevice::ReadOnly) ? name.readAll().trimmed() : QByteArray("a program");
-            return QStringLiteral("%1 (process %2)").arg(QString::fromUtf8(text), process);
-        }
-    }
-#else
-    Q_UNUSED(path)
-#endif
-    return {};
+    const QDir descriptors(QStringLiteral("/proc/%1/fd").arg(process));
+    QStringList files;
+    const QFileInfoList links = descriptors.entryInfoList(QDir::AllEntries | QDir::System | QDir::NoDotAndDotDot);
+    for (const QFileInfo &link : links)
+        files << link.symLinkTarget();
+    return files;
+}
+
+/// A simulator holds both ends of its pseudo-terminal; it is the wire, not who uses it.
+bool isOtherEnd(const QStringList &files, const QString &path)
+{
+    return isPseudoTerminal(path)
+           && std::ranges::any_of(files, [](const QString &file) { return file.endsWith(QLatin1String("/ptmx")); });
 }
 
 Error openError(const QString &name, const QString &path, int number)
@@ -67,6 +60,31 @@ Error openError(const QString &name, const QString &path, int number)
 }
 
 } // namespace
+
+QString holderOf(const QString &path)
+{
+#ifdef __linux__
+    const QStringList processes = QDir(QStringLiteral("/proc")).entryList(QDir::Dirs | QDir::NoDotAndDotDot);
+    for (const QString &process : processes) {
+        bool isNumber = false;
+        const qint64 number = process.toLongLong(&isNumber);
+        if (!isNumber || number == getpid())
+            continue;
+        const QStringList files = filesOf(process);
+        if (!files.contains(path) || isOtherEnd(files, path))
+            continue;
+        QFile name(QStringLiteral("/proc/%1/comm").arg(process));
+        const QByteArray text = name.open(QIODevice::ReadOnly) ? name.readAll().trimmed() : QByteArray("a program");
+        return QStringLiteral("%1 (process %2)").arg(QString::fromUtf8(text), process);
+    }
+    // Whoever asks may have tried to open it just now.
+    if (filesOf(QString::number(getpid())).count(path) > 1)
+        return QStringLiteral("this program");
+#else
+    Q_UNUSED(path)
+#endif
+    return {};
+}
 
 Result<PortGuard> PortGuard::take(const QString &name)
 {

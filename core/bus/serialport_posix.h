@@ -30,6 +30,9 @@ private:
     QString m_path;
 };
 
+/// Who has the port open, as far as the system tells: "screen (process 4711)", "this program". Empty: unknown.
+QString holderOf(const QString &path);
+
 enum class Wait { Readable, TimedOut, Lost };
 /// Waits for input at most that long, to a fraction of a millisecond.
 Wait waitReadable(int descriptor, LineTime duration);

@@ -10,6 +10,8 @@ target_sources(dynascope_core PRIVATE
     bus/learnedtiming.cpp bus/learnedtiming.h
     bus/line.h bus/linefactory.h bus/traits.h
     bus/messages.cpp bus/messages.h
+    bus/networkaddress.cpp bus/networkaddress_values.h
+    bus/networkline.cpp bus/networkline.h bus/networklinefactory.h
     bus/operations.cpp bus/operations.h
     bus/outbox.cpp bus/outbox.h
     bus/poll_values.h
@@ -17,11 +19,15 @@ target_sources(dynascope_core PRIVATE
     bus/quality.cpp bus/quality.h bus/quality_values.h
     bus/readplan.cpp bus/readplan.h
     bus/remainder.cpp bus/remainder.h
+    bus/rfc2217.cpp bus/rfc2217.h
     bus/scan.cpp
     bus/serialbaud_posix.cpp
     bus/serialline.cpp bus/serialline.h bus/seriallinefactory.h
+    bus/serialportlist.cpp
     bus/serialport_posix.cpp bus/serialport_posix.h
     bus/stop_values.h
     bus/stopsequence.cpp bus/stopsequence.h
+    bus/tcpsocket_posix.cpp bus/tcpsocket_posix.h
     bus/timing.cpp bus/timing.h
+    bus/usbidentity.cpp bus/usbidentity.h
 )

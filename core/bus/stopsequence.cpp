@@ -135,7 +135,7 @@ StopOutcome verifyOne(Bus &bus, const StopTarget &target, int alsoTry)
             value = tl::unexpected(set.error());
         else
             value = readTorque(bus, target);
-        if (value || value.error().kind == ErrorKind::Stopped)
+        if (value || bus.isStopped() || bus.isCancelled())
             break;
     }
     if (!value)
@@ -156,7 +156,7 @@ std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int wor
     std::vector<StopOutcome> outcomes;
     for (const StopTarget &target : targets) {
         outcomes.push_back(verifyOne(bus, target, alsoTry));
-        if (bus.isStopped())
+        if (bus.isStopped() || bus.isCancelled())
             return {};
     }
     (void)bus.setBaudRate(workingBaud);

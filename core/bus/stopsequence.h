@@ -34,7 +34,8 @@ private:
 Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
 /// Reads each device's Torque Enable back, at its baud rate or else at `alsoTry`; sends its packet once more where it
-/// still says 1. Ends early, with nothing, where STOP is pressed again. The line is left at `workingBaud`.
+/// still says 1. Ends early, with nothing, where STOP is pressed again or the
+/// line is closed. The line is left at `workingBaud`.
 std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud, int alsoTry);
 
 } // namespace dynascope

@@ -20,7 +20,7 @@ bool isGoal(const Field &field)
 /// What a write to this field may have moved: the registers it resets, or nothing.
 std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
 {
-    if (field.name == QLatin1String("Torque Enable")) {
+    if (&field == device.table().find(Known::TorqueEnable)) {
         return spansOf(device, [](const Field &other) { return isGoal(other); });
     }
     if (field.resets.isEmpty())
@@ -81,7 +81,7 @@ Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
     // Indirect Data may point at a goal or at Torque Enable.
     const bool mayMove = isGoal(field) || field.name.startsWith(QLatin1String("Indirect Data"))
-        || (field.name == QLatin1String("Torque Enable") && raw != 0);
+        || (&field == device.table().find(Known::TorqueEnable) && raw != 0);
     if (m_stopped && mayMove)
         return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
     const QString lock = device.lockReason(fieldIndex);
@@ -184,7 +184,7 @@ void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done don
     outcome->done = std::move(done);
     std::map<std::pair<LineSession *, int>, std::vector<Device *>> groups;
     for (Device *device : devices) {
-        if (device->table().find(u"Torque Enable"))
+        if (device->table().find(Known::TorqueEnable))
             groups[{device->line(), device->baudRate()}].push_back(device);
     }
     outcome->jobs = static_cast<int>(groups.size());
@@ -205,11 +205,7 @@ void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done don
                     outcome->result = one;
                     emit failed(device, one.error());
                 } else if (device) {
-                    PollValue value;
-                    value.address = placeOf(*device).torqueAddress;
-                    value.data = {static_cast<std::uint8_t>(on ? 1 : 0)};
-                    value.at = std::chrono::steady_clock::now().time_since_epoch();
-                    device->take(value);
+                    device->takeReadBack(device->table().indexOf(Known::TorqueEnable), on ? 1 : 0);
                 }
             }
             if (--outcome->jobs == 0 && outcome->done)
@@ -226,7 +222,7 @@ void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done don
 
 void Commands::setLed(Device &device, bool on, Done done)
 {
-    const int led = device.table().indexOf(u"LED");
+    const int led = device.table().indexOf(Known::Led);
     if (led < 0) {
         return refuse(&device, {ErrorKind::NotSupported, tr("%1 has no LED").arg(device.displayName())}, done);
     }

@@ -60,9 +60,13 @@ private:
     void refuse(Device *device, const Error &error, const Done &done, int field = -1);
     Done reporting(Device &device, const QString &success, Done done);
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
-    void awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done);
+    void awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done);
+    void finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
+                      const Done &done);
     void moved(DeviceKey key, const Found &found);
-    void lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old);
+    void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
+                      const Done &report);
+    void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
 
     Session &m_session;
     bool m_stopped = false;

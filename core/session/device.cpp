@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 
 #include <algorithm>
+#include <chrono>
 
 namespace dynascope {
 
@@ -26,9 +27,9 @@ Traits Device::traits() const
     Traits traits;
     traits.id = m_found.id;
     traits.baudRate = m_found.baudRate;
-    if (const auto delay = raw(u"Return Delay Time"))
+    if (const auto delay = raw(Known::ReturnDelayTime))
         traits.returnDelay = std::chrono::microseconds(*delay * 2 + 8);
-    if (const auto level = raw(u"Status Return Level"))
+    if (const auto level = raw(Known::StatusReturnLevel))
         traits.statusReturnLevel = static_cast<std::uint8_t>(*level);
     traits.firmware = m_found.firmware;
     traits.fastReads = m_table->hasFastReads(m_found.firmware);
@@ -38,6 +39,12 @@ Traits Device::traits() const
 std::optional<std::int64_t> Device::raw(QStringView fieldName) const
 {
     const int index = m_table->indexOf(fieldName);
+    return index < 0 ? std::nullopt : value(index).raw;
+}
+
+std::optional<std::int64_t> Device::raw(Known field) const
+{
+    const int index = m_table->indexOf(field);
     return index < 0 ? std::nullopt : value(index).raw;
 }
 
@@ -132,6 +139,17 @@ void Device::take(const PollValue &value)
     setHeard(value.at);
     if (first >= 0)
         emit fieldsChanged(first, last);
+}
+
+void Device::takeReadBack(int fieldIndex, std::int64_t raw)
+{
+    const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
+    PollValue value;
+    value.address = field.address;
+    value.length = field.size;
+    value.data = bytesFromRaw(field, raw);
+    value.at = std::chrono::steady_clock::now().time_since_epoch(); // what was polled before it is older news
+    take(value);
 }
 
 void Device::setPending(int fieldIndex, std::int64_t raw)

@@ -66,8 +66,9 @@ public:
 
     const FieldValue &value(int fieldIndex) const { return m_values[static_cast<std::size_t>(fieldIndex)]; }
     std::optional<std::int64_t> raw(QStringView fieldName) const;
+    std::optional<std::int64_t> raw(Known field) const;
     EffectiveField effective(int fieldIndex) const;
-    bool isTorqueOn() const { return raw(u"Torque Enable").value_or(0) == 1; }
+    bool isTorqueOn() const { return raw(Known::TorqueEnable).value_or(0) == 1; }
     /// Why the field can't be written now, in a sentence; empty where it can.
     QString lockReason(int fieldIndex) const;
 
@@ -81,6 +82,7 @@ public:
     void setHeard(LineTime at);
     void take(const PollValue &value);           ///< bytes that were read; a pending field stays pending,
                                                  ///< a failed one failed until its value moves; older news are dropped
+    void takeReadBack(int fieldIndex, std::int64_t raw); ///< a job has just read this value back
     void setPending(int fieldIndex, std::int64_t raw);
     void clearPending(int fieldIndex);           ///< the write is over; take() what was read back
     void setFailed(int fieldIndex, const QString &error);

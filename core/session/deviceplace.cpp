@@ -12,7 +12,7 @@ DevicePlace placeOf(const Found &found, const ControlTable &table, const QString
     place.baudRate = found.baudRate;
     place.modelNumber = found.modelNumber;
     place.name = name;
-    if (const Field *torque = table.find(u"Torque Enable"))
+    if (const Field *torque = table.find(Known::TorqueEnable))
         place.torqueAddress = torque->address;
     return place;
 }

@@ -79,9 +79,9 @@ void LineSession::startThread(const QString &name, int baudRate)
     });
 }
 
-void LineSession::reopen()
+void LineSession::reopen(const QString &name)
 {
-    startThread(name(), baudRate());
+    startThread(QString(name.isEmpty() ? this->name() : name), baudRate());
     emit stateChanged();
 }
 
@@ -160,6 +160,7 @@ void LineSession::moveDevice(Device &device, const Found &found)
     device.setHeard(monotonicNow());
     countAnew(device);
     park(device);
+    emit deviceLocated(&device);
 }
 
 /// What was counted for its ID was another one's.

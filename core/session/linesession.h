@@ -28,7 +28,8 @@ public:
     QString name() const { return m_thread->name(); }
     BusThread &bus() const { return *m_thread; } ///< another one after reopen()
     int generation() const { return m_generation; } ///< counts the bus threads; a new one may stand at the old address
-    void reopen();                               ///< a lost line once more, keeping its devices
+    /// A lost line once more, keeping its devices; under another name where its adapter came up elsewhere.
+    void reopen(const QString &name = {});
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
 
@@ -54,6 +55,7 @@ signals:
     void deviceAdded(dynascope::Device *device);
     void deviceAboutToBeRemoved(dynascope::Device *device);
     void deviceChanged(dynascope::Device *device);
+    void deviceLocated(dynascope::Device *device); ///< it was looked for after a change or a reboot, and found
     void stateChanged();
     void batchTaken(const dynascope::Batch &batch); ///< after the devices have it
     void rateChanged();                             ///< cycle rate, bus load, statistics: about once a second

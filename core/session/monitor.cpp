@@ -16,6 +16,7 @@ Monitor::Monitor(Session &session, QObject *parent)
     m_replanTimer.setInterval(0);
     connect(&m_replanTimer, &QTimer::timeout, this, &Monitor::replan);
     connect(&session, &Session::lineAdded, this, &Monitor::follow);
+    connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) { m_sentPlans.erase(line); });
     connect(&session, &Session::deviceAdded, this, &Monitor::replanSoon);
     connect(&session, &Session::deviceAboutToBeRemoved, this, &Monitor::drop);
     for (const auto &line : session.lines())
@@ -24,12 +25,7 @@ Monitor::Monitor(Session &session, QObject *parent)
 
 void Monitor::follow(LineSession *line)
 {
-    connect(line, &LineSession::stateChanged, this, [this, line] {
-        // The next bus thread may stand at the same address: what was sent to the one before doesn't count.
-        if (line->state() != BusThread::State::Open)
-            m_sentPlans.erase(&line->bus());
-        replanSoon();
-    });
+    connect(line, &LineSession::stateChanged, this, &Monitor::replanSoon);
     connect(line, &LineSession::deviceChanged, this, &Monitor::replanSoon);
     connect(line, &LineSession::batchTaken, this, &Monitor::record);
     replanSoon();
@@ -37,8 +33,11 @@ void Monitor::follow(LineSession *line)
 
 void Monitor::drop(Device *device)
 {
+    // A trace keeps its curve; what nobody watches any more has none.
+    std::erase_if(m_histories, [this, device](const auto &entry) {
+        return entry.first.device == device->key() && !m_watches.contains(entry.first);
+    });
     std::erase_if(m_watches, [device](const Watch &watch) { return watch.device == device->key(); });
-    std::erase_if(m_histories, [device](const auto &entry) { return entry.first.device == device->key(); });
     std::erase(m_selected, device->key());
     replanSoon();
     emit watchesChanged();
@@ -62,6 +61,8 @@ void Monitor::markGap(const Watch &watch)
 
 void Monitor::unwatch(const Watch &watch)
 {
+    if (!m_session.device(watch.device))
+        m_histories.erase(watch);
     if (m_watches.erase(watch) == 0)
         return;
     replanSoon();
@@ -118,16 +119,14 @@ void Monitor::replan()
             devices.push_back(std::move(watches));
         }
         PollPlan plan = planWatches(devices);
-        PollPlan &sent = m_sentPlans[&line->bus()];
-        if (plan == sent)
+        SentPlan &sent = m_sentPlans[line.get()];
+        if (sent.generation != line->generation())
+            sent = {line->generation(), {}};
+        if (plan == sent.plan)
             continue;
-        sent = plan;
+        sent.plan = plan;
         line->bus().setPollPlan(std::move(plan));
     }
-    std::erase_if(m_sentPlans, [this](const auto &entry) {
-        return std::ranges::none_of(m_session.lines(),
-                                    [&entry](const auto &line) { return &line->bus() == entry.first; });
-    });
 }
 
 void Monitor::record(const Batch &batch)

@@ -29,12 +29,13 @@ public:
     explicit Monitor(Session &session, QObject *parent = nullptr);
 
     void watch(const Watch &watch);
-    void unwatch(const Watch &watch); ///< its history stays until clear()
+    void unwatch(const Watch &watch); ///< its history stays until clear() or the device goes
     bool isWatched(const Watch &watch) const { return m_watches.contains(watch); }
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
 
-    /// nullptr until its first sample. Stays valid until unwatch() or the device goes.
+    /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
+    /// its history until unwatch() or clear().
     const History *history(const Watch &watch) const;
     void clear(); ///< all histories
 
@@ -58,7 +59,11 @@ private:
     std::vector<DeviceKey> m_selected;
     bool m_paused = false;
     QTimer m_replanTimer;
-    std::map<const BusThread *, PollPlan> m_sentPlans; ///< so that nothing is sent twice
+    struct SentPlan {
+        int generation = 0; ///< of the bus thread that has it
+        PollPlan plan;
+    };
+    std::map<const LineSession *, SentPlan> m_sentPlans; ///< so that nothing is sent twice
 };
 
 } // namespace dynascope

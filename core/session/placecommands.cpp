@@ -60,44 +60,48 @@ void Commands::reboot(Device &device, Done done)
             return report(result);
         if (Device *present = m_session.device(key))
             present->setState(Device::State::Rebooting);
-        awaitReturn(key, place, ReturnAttempts, report);
+        awaitReturn(key, place, place, ReturnAttempts, report);
     };
     runAt(device, [id = device.id()](Bus &bus) { return dynascope::reboot(bus, id); }, sent);
 }
 
-void Commands::awaitReturn(DeviceKey key, const DevicePlace &place, int attempts, Done done)
+/// After a boot. Where the device should be elsewhere then, the old place is looked at from the second time on: by then
+/// who answers there has ignored what was asked of it.
+void Commands::awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done)
 {
-    QTimer::singleShot(BootTime, this, [this, key, place, attempts, done = std::move(done)] {
+    QTimer::singleShot(BootTime, this, [this, key, from, to, attempts, done = std::move(done)] {
         Device *device = m_session.device(key);
         if (!device) {
             done(failure(ErrorKind::Cancelled, tr("The device is gone")));
             return;
         }
+        const DevicePlace old = attempts < ReturnAttempts ? from : to;
         device->line()->bus().run<Found>(
-            Priority::Click, this, [place](JobContext &context) { return look(context, place); },
-            [this, key, place, attempts, done](const Result<Found> &found) {
+            Priority::Click, this, [old, to](JobContext &context) { return lookForMoved(context, old, to); },
+            [this, key, from, to, attempts, done](const Result<Found> &found) {
                 Device *present = m_session.device(key);
-                if (found && present) {
-                    moved(key, *found);
-                    if (m_stopped) // pressed while it booted
-                        setTorque({present}, false);
-                    readAll(*present, done);
-                } else if (!present || attempts <= 1 || found.error().kind == ErrorKind::PortLost) {
-                    if (present)
-                        present->setState(Device::State::Silent);
-                    Error error = found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error();
-                    if (error.kind == ErrorKind::NothingReceived) {
-                        error.text = tr("%1 does not answer at ID %2, %3 bps; scan to find it")
-                                         .arg(place.name)
-                                         .arg(place.id)
-                                         .arg(place.baudRate);
-                    }
-                    done(tl::unexpected(std::move(error)));
-                } else {
-                    awaitReturn(key, place, attempts - 1, done);
-                }
+                if (found && present)
+                    return finishReturn(*present, from, to, *found, done);
+                if (present && attempts > 1 && found.error().kind != ErrorKind::PortLost)
+                    return awaitReturn(key, from, to, attempts - 1, done);
+                if (present)
+                    present->setState(Device::State::Silent);
+                done(tl::unexpected(found ? Error{ErrorKind::Cancelled, tr("The device is gone")} : found.error()));
             });
     });
+}
+
+void Commands::finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
+                            const Done &done)
+{
+    moved(device.key(), found);
+    if (isAt(found, to))
+        return readAll(device, done);
+    readAll(device);
+    done(failure(ErrorKind::NotConfirmed, tr("%1 still answers at ID %2, %3 bps: it did not take the reset")
+                                              .arg(from.name)
+                                              .arg(from.id)
+                                              .arg(from.baudRate)));
 }
 
 void Commands::moved(DeviceKey key, const Found &found)
@@ -106,29 +110,58 @@ void Commands::moved(DeviceKey key, const Found &found)
         device->line()->moveDevice(*device, found);
 }
 
+void Commands::finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
+                            const Done &report)
+{
+    if (!found && found.error().kind == ErrorKind::Stopped)
+        return lookAgain(key, from, to, report);
+    if (!found)
+        return report(tl::unexpected(found.error()));
+    moved(key, *found);
+    if (Device *device = m_session.device(key)) {
+        LineSession *line = device->line();
+        const bool others = std::ranges::any_of(line->devices(), [](const auto &each) {
+            return each->state() == Device::State::Present;
+        });
+        if (found->baudRate != from.baudRate && !others)
+            line->setWorkingBaudRate(found->baudRate);
+        readAll(*device);
+    }
+    report({});
+}
+
 /// STOP came in the middle of a change: nobody knows yet whether the device took it.
-void Commands::lookAgain(DeviceKey key, const DevicePlace &changed, const DevicePlace &old)
+void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report)
 {
     Device *device = m_session.device(key);
     if (!device)
-        return;
+        return report(failure(ErrorKind::Stopped, tr("STOP ended the change")));
     device->line()->bus().run<Found>(
-        Priority::Click, this,
-        [changed, old](JobContext &context) {
-            auto found = look(context, changed);
-            return found && found->modelNumber == old.modelNumber ? found : look(context, old);
-        },
-        [this, key](const Result<Found> &found) {
-            if (found)
+        Priority::Click, this, [from, to](JobContext &context) { return lookForMoved(context, from, to); },
+        [this, key, from, to, report](const Result<Found> &found) {
+            Device *present = m_session.device(key);
+            if (found) {
                 moved(key, *found);
+                return report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1 is at ID %2, %3 bps")
+                                                              .arg(from.name)
+                                                              .arg(found->id)
+                                                              .arg(found->baudRate)));
+            }
+            const ErrorKind kind = found.error().kind;
+            const bool pressedAgain = kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled;
+            if (pressedAgain && present && present->line()->state() == BusThread::State::Open)
+                return lookAgain(key, from, to, report);
+            if (present)
+                present->setState(Device::State::Silent);
+            report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1").arg(found.error().text)));
         });
 }
 
 void Commands::factoryReset(Device &device, ResetOption option, Done done)
 {
     FactoryResetPlan plan{placeOf(device), option, placeOf(device)};
-    const Field *id = device.table().find(u"ID");
-    const Field *baud = device.table().find(u"Baud Rate");
+    const Field *id = device.table().find(Known::Id);
+    const Field *baud = device.table().find(Known::BaudRate);
     if (!id || !baud) {
         return refuse(&device,
                       {ErrorKind::NotSupported,
@@ -148,12 +181,12 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                             std::move(done));
     device.line()->bus().run<void>(
         Priority::Click, this, [plan](JobContext &context) { return resetToFactory(context, plan); },
-        [this, key = device.key(), after = plan.after, report](const Result<void> &result) {
+        [this, key = device.key(), from = plan.place, to = plan.after, report](const Result<void> &result) {
             if (!result)
                 return report(result);
             if (Device *present = m_session.device(key))
                 present->setState(Device::State::Rebooting);
-            awaitReturn(key, after, ReturnAttempts, report);
+            awaitReturn(key, from, to, ReturnAttempts, report);
         });
 }
 
@@ -165,7 +198,7 @@ void Commands::clearMultiTurn(Device &device, Done done)
 
 void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done)
 {
-    const Field *field = device.table().find(u"ID");
+    const Field *field = device.table().find(Known::Id);
     const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
     if (!field)
         return invalid(tr("The table of %1 has no ID register").arg(device.displayName()));
@@ -178,7 +211,7 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
             continue;
         if (other->id() == newId)
             return invalid(tr("ID %1 is taken by %2").arg(newId).arg(other->displayName()));
-        if (other->raw(u"Secondary ID") == newId)
+        if (other->raw(Known::SecondaryId) == newId)
             return invalid(tr("ID %1 is the Secondary ID of %2").arg(newId).arg(other->displayName()));
     }
     ChangeIdPlan plan{placeOf(device), static_cast<std::uint8_t>(newId), field->address, turnTorqueOff};
@@ -186,24 +219,16 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeId(context, plan); },
-        [this, key = device.key(), old = plan.place, newId = plan.newId, report](const Result<Found> &found) {
-            if (!found && found.error().kind == ErrorKind::Stopped) {
-                DevicePlace changed = old;
-                changed.id = newId;
-                lookAgain(key, changed, old);
-            }
-            if (!found)
-                return report(tl::unexpected(found.error()));
-            moved(key, *found);
-            if (Device *present = m_session.device(key))
-                readAll(*present);
-            report({});
+        [this, key = device.key(), from = plan.place, newId = plan.newId, report](const Result<Found> &found) {
+            DevicePlace to = from;
+            to.id = newId;
+            finishChange(key, from, to, found, report);
         });
 }
 
 void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done done)
 {
-    const Field *field = device.table().find(u"Baud Rate");
+    const Field *field = device.table().find(Known::BaudRate);
     const auto invalid = [&](const QString &text) { refuse(&device, {ErrorKind::InvalidArgument, text}, done); };
     if (newBaud == device.baudRate())
         return invalid(tr("%1 works at that baud rate already").arg(device.displayName()));
@@ -218,25 +243,10 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeBaud(context, plan); },
-        [this, key = device.key(), old = plan.place, newBaud, report](const Result<Found> &found) {
-            if (!found && found.error().kind == ErrorKind::Stopped) {
-                DevicePlace changed = old;
-                changed.baudRate = newBaud;
-                lookAgain(key, changed, old);
-            }
-            if (!found)
-                return report(tl::unexpected(found.error()));
-            moved(key, *found);
-            if (Device *present = m_session.device(key)) {
-                LineSession *line = present->line();
-                const bool alone = std::ranges::none_of(line->devices(), [](const auto &each) {
-                    return each->state() == Device::State::Present;
-                });
-                if (alone)
-                    line->setWorkingBaudRate(found->baudRate);
-                readAll(*present);
-            }
-            report({});
+        [this, key = device.key(), from = plan.place, newBaud, report](const Result<Found> &found) {
+            DevicePlace to = from;
+            to.baudRate = newBaud;
+            finishChange(key, from, to, found, report);
         });
 }
 

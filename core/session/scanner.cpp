@@ -16,18 +16,21 @@ struct ScanSummary {
 /// What the scan tells the GUI while it runs.
 struct ScanNotes {
     std::function<void(const Found &)> found;
-    std::function<void(int step, int baud)> baudBegins;
+    std::function<void(double progress, int baud)> baudBegins;
 };
 
 Result<ScanSummary> scan(JobContext &context, const ScanRange &range, const ScanNotes &notes)
 {
     ScanSummary summary;
     const AtBaud home(context.bus(), context.bus().line().baudRate());
-    for (std::size_t step = 0; step < range.bauds.size(); ++step) {
+    const Line &line = context.bus().line();
+    const std::vector<int> bauds = line.canSetBaudRate() ? range.bauds : std::vector{line.baudRate()};
+    for (std::size_t step = 0; step < bauds.size(); ++step) {
         if (const auto go = context.checkpoint(); !go)
             return tl::unexpected(go.error());
-        const int baud = range.bauds[step];
-        context.post([notes, step, baud] { notes.baudBegins(static_cast<int>(step), baud); });
+        const int baud = bauds[step];
+        const double progress = static_cast<double>(step) / static_cast<double>(bauds.size());
+        context.post([notes, progress, baud] { notes.baudBegins(progress, baud); });
         if (const auto set = context.bus().setBaudRate(baud); !set) {
             if (set.error().kind != ErrorKind::PortUnsuitable)
                 return tl::unexpected(set.error());
@@ -37,15 +40,17 @@ Result<ScanSummary> scan(JobContext &context, const ScanRange &range, const Scan
         const auto report = [&](const Found &found) {
             context.post([notes, found] { notes.found(found); });
         };
-        const auto found = scanBaud(context.bus(), range.firstId, range.lastId, report);
+        const auto found = scanBaud(context.bus(), {range.firstId, range.lastId, range.sweep}, report);
         if (found) {
-            summary.found += static_cast<int>(found->size());
+            summary.found += static_cast<int>(found->devices.size());
+            if (!found->unreadable.isEmpty())
+                summary.trouble << found->unreadable;
             continue;
         }
         const ErrorKind kind = found.error().kind;
         if (kind == ErrorKind::PortLost || kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled)
             return tl::unexpected(found.error());
-        summary.trouble << found.error().text; // somebody is there but unreadable
+        summary.trouble << found.error().text;
     }
     return summary;
 }
@@ -94,10 +99,10 @@ void Scanner::start(LineSession &line, const ScanRange &range)
         m_line->heard(found);
         emit progressChanged();
     };
-    notes.baudBegins = [this, run, steps = range.bauds.size()](int step, int baud) {
+    notes.baudBegins = [this, run](double progress, int baud) {
         if (run != m_run)
             return;
-        m_progress = static_cast<double>(step) / static_cast<double>(steps);
+        m_progress = progress;
         m_currentBaud = baud;
         emit progressChanged();
     };

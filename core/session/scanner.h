@@ -9,6 +9,7 @@ struct ScanRange {
     std::vector<int> bauds; ///< in the order to try; at least one
     int firstId = 0;
     int lastId = 252;
+    bool sweep = false; ///< one Ping after the other, where the broadcast one fails
 };
 
 /// The rates most worth trying first: the last one used, 57 600, 1 M, then the rest.

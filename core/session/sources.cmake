@@ -11,6 +11,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
+    session/reopener.cpp session/reopener.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h

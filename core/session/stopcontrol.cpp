@@ -31,6 +31,10 @@ StopControl::StopControl(Session &session, Commands &commands, QObject *parent)
 void StopControl::follow(LineSession *line)
 {
     connect(line, &LineSession::deviceChanged, this, [this] { m_prepareTimer.start(); });
+    connect(line, &LineSession::deviceLocated, this, [this](Device *device) {
+        if (m_active) // pressed while it booted or moved: the packets went to where it was
+            turnOff(*device);
+    });
     connect(line, &LineSession::stateChanged, this, [this, line] { adopt(*line); });
     adopt(*line);
 }
@@ -54,7 +58,7 @@ void StopControl::prepare()
     for (const auto &line : m_session.lines()) {
         std::vector<StopTarget> targets;
         for (const auto &device : line->devices()) {
-            if (const Field *torque = device->table().find(u"Torque Enable"))
+            if (const Field *torque = device->table().find(Known::TorqueEnable))
                 targets.push_back({device->key(), device->id(), device->baudRate(), torque->address});
         }
         line->bus().setStopTargets(std::move(targets));
@@ -93,10 +97,10 @@ void StopControl::release()
     update();
 }
 
-/// A device that a scan finds while STOP is held.
+/// A device that turns up while STOP is held.
 void StopControl::turnOff(Device &device)
 {
-    if (!device.table().find(u"Torque Enable"))
+    if (!device.table().find(Known::TorqueEnable))
         return update();
     const DeviceKey key = device.key();
     note({key, false, tr("Not asked yet")});
@@ -122,13 +126,8 @@ void StopControl::take(LineSession *line, const std::vector<StopOutcome> &outcom
     for (const StopOutcome &outcome : outcomes) {
         note(outcome);
         Device *device = m_session.device(outcome.device);
-        if (!device || !outcome.off)
-            continue;
-        PollValue value;
-        value.address = placeOf(*device).torqueAddress;
-        value.data = {0};
-        value.at = device->lastHeard();
-        device->take(value);
+        if (device && outcome.off)
+            device->takeReadBack(device->table().indexOf(Known::TorqueEnable), 0);
     }
     update();
 }
@@ -137,7 +136,7 @@ QStringList StopControl::uncovered() const
 {
     QStringList names;
     for (const Device *device : m_session.devices()) {
-        if (!device->table().find(u"Torque Enable"))
+        if (!device->table().find(Known::TorqueEnable))
             names << device->displayName();
     }
     return names;

@@ -5,6 +5,28 @@
 
 namespace dynascope {
 
+namespace {
+
+constexpr std::array<QStringView, static_cast<std::size_t>(Known::PresentPosition) + 1> KnownNames{
+    u"ID",
+    u"Secondary ID",
+    u"Baud Rate",
+    u"Return Delay Time",
+    u"Status Return Level",
+    u"Operating Mode",
+    u"Torque Enable",
+    u"LED",
+    u"Hardware Error Status",
+    u"Present Position",
+};
+
+} // namespace
+
+QStringView nameOf(Known field)
+{
+    return KnownNames[static_cast<std::size_t>(field)];
+}
+
 ControlTable::ControlTable(Description description) : m_description(std::move(description))
 {
     m_byName.reserve(m_description.fields.size());
@@ -14,6 +36,8 @@ ControlTable::ControlTable(Description description) : m_description(std::move(de
         m_size = std::max(m_size, field.end());
     }
     std::sort(m_byName.begin(), m_byName.end());
+    for (std::size_t i = 0; i < m_known.size(); ++i)
+        m_known[i] = indexOf(KnownNames[i]);
 }
 
 int ControlTable::indexOf(QStringView name) const
@@ -26,6 +50,12 @@ int ControlTable::indexOf(QStringView name) const
 const Field *ControlTable::find(QStringView name) const
 {
     const int index = indexOf(name);
+    return index < 0 ? nullptr : &m_description.fields[static_cast<std::size_t>(index)];
+}
+
+const Field *ControlTable::find(Known field) const
+{
+    const int index = indexOf(field);
     return index < 0 ? nullptr : &m_description.fields[static_cast<std::size_t>(index)];
 }
 

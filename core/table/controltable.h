@@ -4,6 +4,7 @@
 #include "core/bytes.h"
 #include "core/table/field.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <span>
@@ -17,6 +18,21 @@ struct BaudCode {
 
     friend bool operator==(const BaudCode &, const BaudCode &) = default;
 };
+
+/// Registers that the program itself means, whatever the model: found once, when the table is made.
+enum class Known : std::uint8_t {
+    Id,
+    SecondaryId,
+    BaudRate,
+    ReturnDelayTime,
+    StatusReturnLevel,
+    OperatingMode,
+    TorqueEnable,
+    Led,
+    HardwareErrorStatus,
+    PresentPosition,
+};
+QStringView nameOf(Known field); ///< as the manufacturer writes it
 
 /// The control table of one model at one range of firmware. Immutable; shared between threads.
 class ControlTable
@@ -50,6 +66,8 @@ public:
     /// By the manufacturer's name, ignoring case, spaces, '-' and '_'; −1 where there is none.
     int indexOf(QStringView name) const;
     const Field *find(QStringView name) const;
+    int indexOf(Known field) const { return m_known[static_cast<std::size_t>(field)]; } ///< −1 where there is none
+    const Field *find(Known field) const;
     /// The field that begins at this address; nullptr where none does.
     const Field *at(int address) const;
     int indexOf(const Field *field) const;
@@ -62,6 +80,7 @@ public:
 private:
     Description m_description;
     std::vector<std::pair<QString, int>> m_byName; ///< normalised, sorted
+    std::array<int, static_cast<std::size_t>(Known::PresentPosition) + 1> m_known{}; ///< by Known
     int m_size = 0;
 };
 

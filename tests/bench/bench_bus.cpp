@@ -74,8 +74,8 @@ void scanInVirtualTime(const Catalog &catalog)
     for (const int baud : bauds) {
         if (!wire.bus->setBaudRate(baud))
             qFatal("baud %d refused", baud);
-        const auto devices = scanBaud(*wire.bus, 0, 252, [](const Found &) {});
-        found += devices ? devices->size() : 0;
+        const auto devices = scanBaud(*wire.bus, {0, 252}, [](const Found &) {});
+        found += devices ? devices->devices.size() : 0;
     }
     const double seconds = std::chrono::duration<double>(wire.line->now() - begin).count();
     std::printf("full scan, IDs 0-252 at %zu bauds, 10 servos: found %zu in %.2f s of virtual time, %.0f ms of wall time\n",

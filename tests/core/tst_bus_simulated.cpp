@@ -41,12 +41,12 @@ private slots:
             QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:7,XL330-M288@57600:252,XL330-M288@1000000:3"));
         std::vector<int> shown;
         const LineTime begin = world.line->now();
-        const auto found = scanBaud(*world.bus, 0, 252, [&](const Found &device) { shown.push_back(device.id); });
+        const auto found = scanBaud(*world.bus, {0, 252}, [&](const Found &device) { shown.push_back(device.id); });
         QVERIFY(found);
         QCOMPARE(shown, (std::vector<int>{1, 7, 252}));
-        QCOMPARE((*found)[0].modelNumber, 1020);
-        QCOMPARE((*found)[2].modelNumber, 1200);
-        for (const Found &device : *found)
+        QCOMPARE(found->devices[0].modelNumber, 1020);
+        QCOMPARE(found->devices[2].modelNumber, 1200);
+        for (const Found &device : found->devices)
             QCOMPARE(device.doubt, QString());
         QVERIFY(world.line->now() - begin < 900ms);
     }
@@ -54,11 +54,11 @@ private slots:
     void twoDevicesUnderOneIdAreDoubted()
     {
         VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1,XL330-M288@57600:1"));
-        const auto found = scanBaud(*world.bus, 0, 252, {});
+        const auto found = scanBaud(*world.bus, {0, 252}, {});
         QVERIFY(found);
-        QCOMPARE(found->size(), std::size_t(1));
-        QCOMPARE(found->front().id, std::uint8_t(1));
-        QVERIFY2(!found->front().doubt.isEmpty(), "one healthy device");
+        QCOMPARE(found->devices.size(), std::size_t(1));
+        QCOMPARE(found->devices.front().id, std::uint8_t(1));
+        QVERIFY2(!found->devices.front().doubt.isEmpty(), "one healthy device");
     }
 
     void readsManyByEveryKindOfExchange()

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/messages.h"
 #include "core/bus/operations.h"
 #include "core/bus/poller.h"
 #include "core/bus/stopsequence.h"
+#include "core/session/procedures/atbaud.h"
 #include "tests/support/busworld.h"
+#include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
 #include <QSemaphore>
@@ -41,6 +44,92 @@ QString toText(const std::vector<Bytes> &packets)
     return parts.join(QStringLiteral(", "));
 }
 
+/// Sets the stop flag when a while has passed since the n-th packet began.
+class PressingLine final : public Line
+{
+public:
+    PressingLine(Line &line, std::atomic<bool> &stop, int packet, LineTime after)
+        : m_line(line), m_stop(stop), m_packet(packet), m_after(after)
+    {
+    }
+
+    LineTime pressedAt() const { return m_pressAt.value_or(LineTime{}); }
+    int packets() const { return m_packets; } ///< written so far
+
+    QString name() const override { return m_line.name(); }
+    LineTime now() const override { return m_line.now(); }
+    Result<void> write(ByteView packet) override
+    {
+        if (++m_packets == m_packet)
+            m_pressAt = now() + m_after;
+        look();
+        return m_line.write(packet);
+    }
+    Result<void> read(Bytes &buffer, LineTime deadline) override
+    {
+        const Result<void> read = m_line.read(buffer, deadline);
+        look();
+        return read;
+    }
+    void discardInput() override { m_line.discardInput(); }
+    int baudRate() const override { return m_line.baudRate(); }
+    Result<void> setBaudRate(int bitsPerSecond) override { return m_line.setBaudRate(bitsPerSecond); }
+    LineTime hostAllowance() const override { return m_line.hostAllowance(); }
+
+private:
+    void look()
+    {
+        if (m_pressAt && now() >= *m_pressAt && !std::exchange(m_pressed, true))
+            m_stop = true;
+    }
+
+    Line &m_line;
+    std::atomic<bool> &m_stop;
+    int m_packet;
+    LineTime m_after;
+    int m_packets = 0;
+    std::optional<LineTime> m_pressAt;
+    bool m_pressed = false;
+};
+
+/// What STOP comes into; the bus is at the working rate before it.
+using Work = void (*)(Bus &);
+
+void poll(Bus &bus)
+{
+    Poller poller(bus);
+    PollPlan plan; // the second is missing
+    for (const std::uint8_t id : {1, 2, 3})
+        plan.spans.push_back({id, {id, 132, 4}, 0ms});
+    poller.setPlan(plan);
+    for (int cycle = 0; cycle < 10 && !bus.isStopped(); ++cycle)
+        (void)poller.runCycle();
+}
+
+void scanTwoRates(Bus &bus)
+{
+    const int home = bus.line().baudRate();
+    for (const int baudRate : {57600, 1'000'000}) {
+        const AtBaud there(bus, baudRate);
+        (void)scanBaud(bus, {0, 252}, {});
+    }
+    QCOMPARE(bus.line().baudRate(), home);
+}
+
+/// There and back again.
+void changeItsBaud(Bus &bus)
+{
+    DirectContext context(bus);
+    const int home = bus.line().baudRate();
+    const int other = home == 57600 ? 1'000'000 : 57600;
+    const auto code = [](int baudRate) { return static_cast<std::uint8_t>(baudRate == 57600 ? 1 : 3); };
+    const DevicePlace place{1, home, 1020, 64, QStringLiteral("one")};
+    DevicePlace moved = place;
+    moved.baudRate = other;
+    (void)changeBaud(context, {place, other, code(other), 8, true});
+    (void)changeBaud(context, {moved, home, code(home), 8, true});
+}
+
 } // namespace
 
 class TestBusThreadStop : public QObject
@@ -50,7 +139,13 @@ class TestBusThreadStop : public QObject
     using World = BusWorld;
 
 private slots:
-    void initTestCase() { qRegisterMetaType<std::vector<StopOutcome>>(); }
+    void initTestCase()
+    {
+        qRegisterMetaType<std::vector<StopOutcome>>();
+        auto catalog = Catalog::builtIn();
+        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
+        m_catalog = std::move(*catalog);
+    }
 
     void writesToEachModelsOwnRegister()
     {
@@ -63,36 +158,27 @@ private slots:
         QVERIFY(StopPlan().packets(57600).empty());
     }
 
+    void isOnTheWireInTime_data()
+    {
+        QTest::addColumn<Work>("work");
+        QTest::addColumn<int>("packets"); ///< of which each is one to press at
+        QTest::newRow("polling") << Work(&poll) << 20;
+        QTest::newRow("scan") << Work(&scanTwoRates) << 9;
+        QTest::newRow("change of baud rate") << Work(&changeItsBaud) << 8;
+    }
     // Issue: on the wire within 5 ms and the rest of the packet in flight, whatever is waited for.
     void isOnTheWireInTime()
     {
+        QFETCH(Work, work);
+        QFETCH(int, packets);
         for (const int baudRate : {57600, 1'000'000}) {
-            for (int at = 1; at < 40; ++at) {
-                FakeLine line(baudRate);
-                line.allowance = 50ms;
-                FakeServos servos(line);
-                servos.servos[1].baudRate = servos.servos[3].baudRate = baudRate;
-                std::atomic<bool> stop = false;
-                LineTime pressed{}, inFlight{};
-                line.handler = [&, inner = line.handler](const Bytes &request) {
-                    if (static_cast<int>(line.sent.size()) == at) {
-                        stop = true;
-                        pressed = line.now();
-                        inFlight = static_cast<LineTime::rep>(request.size()) * line.byteTime();
-                    }
-                    return inner(request);
-                };
-                Bus bus(line, &stop);
-                Poller poller(bus);
-                PollPlan plan; // the second is missing
-                for (const std::uint8_t id : {1, 2, 3})
-                    plan.spans.push_back({id, {id, 132, 4}, 0ms});
-                poller.setPlan(plan);
-                while (!stop)
-                    (void)poller.runCycle();
-                const std::size_t before = line.sent.size();
-                QVERIFY(sendTorqueOff(bus, StopPlan({{11, 1, baudRate, 64}}), baudRate));
-                QVERIFY(line.sent[before].at - pressed <= 5ms + inFlight);
+            for (const LineTime allowance : {LineTime(0), LineTime(50ms)}) {
+                for (int at = 1; at <= packets; ++at) {
+                    for (const LineTime after : {LineTime(0), LineTime(2ms), LineTime(9ms)})
+                        pressAt({at, after, baudRate, allowance}, work);
+                    if (QTest::currentTestFailed())
+                        return;
+                }
             }
         }
     }
@@ -169,7 +255,7 @@ private slots:
         QSignalSpy finished(&world.thread, &BusThread::stopFinished);
         world.run(Priority::Scan, [&](JobContext &context) -> Result<int> {
             for (;;) { // virtual time: a scan is over in no time
-                const auto found = scanBaud(context.bus(), 0, 252, {});
+                const auto found = scanBaud(context.bus(), {0, 252}, {});
                 if (!found)
                     return tl::unexpected(found.error());
                 if (const Result<void> on = context.checkpoint(); !on)
@@ -198,6 +284,58 @@ private slots:
         QVERIFY(!outcomes.front().off);
         QCOMPARE(outcomes.front().text, QStringLiteral("there is no port nowhere"));
     }
+
+private:
+    struct Press {
+        int packet = 1;
+        LineTime after{};
+        int baudRate = 57600;
+        LineTime allowance{};
+    };
+
+    void pressAt(const Press &press, Work work)
+    {
+        const int other = press.baudRate == 57600 ? 1'000'000 : 57600;
+        const auto servos = QStringLiteral("XM430-W350@%1:1,XM430-W350@%1:3,XM430-W350@%2:5");
+        VirtualBus wire(m_catalog, servos.arg(press.baudRate).arg(other), press.baudRate);
+        wire.simulated.servo(3, press.baudRate)->write(u"Torque Enable", 1);
+        wire.simulated.setLogging(true);
+        wire.line->setHostAllowance(press.allowance);
+        PressingLine line(*wire.line, wire.stop, press.packet, press.after);
+        Bus bus(line, &wire.stop);
+        for (int round = 0; round < 20 && !wire.stop; ++round)
+            work(bus);
+        QVERIFY2(wire.stop, "it ended before");
+        const int before = line.packets();
+        const StopPlan plan({{11, 1, press.baudRate, 64}, {13, 3, press.baudRate, 64}});
+        QVERIFY(sendTorqueOff(bus, plan, press.baudRate));
+        // Where answers to a broadcast Ping fell on both packets, reading back finds it out and writes again.
+        wire.stop = false;
+        (void)verifyTorqueOff(bus, plan, press.baudRate, press.baudRate);
+        QCOMPARE(wire.simulated.servo(3, press.baudRate)->value(u"Torque Enable"), 0);
+
+        std::vector<sim::WireEntry> log = wire.simulated.log(); // by their ends
+        std::ranges::stable_sort(log, {}, &sim::WireEntry::begin);
+        const LineTime pressed = line.pressedAt();
+        LineTime inFlight{};
+        int sent = 0;
+        for (const sim::WireEntry &entry : log) {
+            if (entry.fromController && ++sent > before) {
+                QVERIFY2(entry.begin - pressed <= 5ms + inFlight,
+                    qPrintable(QStringLiteral("%1 after the press, %2 after packet %3, at %4 bps")
+                                   .arg(messages::durationText(entry.begin - pressed))
+                                   .arg(messages::durationText(press.after))
+                                   .arg(press.packet)
+                                   .arg(press.baudRate)));
+                return;
+            }
+            if (entry.begin <= pressed)
+                inFlight = std::max(inFlight, entry.end - pressed);
+        }
+        QFAIL("nothing was sent");
+    }
+
+    Catalog m_catalog;
 };
 
 DYNASCOPE_CORE_TEST(TestBusThreadStop)

@@ -80,6 +80,30 @@ private slots:
         QVERIFY(table.hasFastReads(45) && !table.hasFastReads(44) && !table.hasBackup(255));
     }
 
+    void findsEveryFieldHoweverItsNameIsWritten()
+    {
+        ControlTable::Description description;
+        const QStringList names{QStringLiteral("ID"), QStringLiteral("Id 2"), QStringLiteral("Goal PWM"),
+            QStringLiteral("Goal"), QStringLiteral("Velocity I-Gain"), QStringLiteral("Velocity_Limit"),
+            QStringLiteral("Torque Enable"), QStringLiteral("LED")};
+        for (const QString &name : names)
+            description.fields.push_back(field(name, static_cast<int>(description.fields.size()), 1));
+        const ControlTable table(description);
+        for (int i = 0; i < static_cast<int>(names.size()); ++i) {
+            QCOMPARE(table.indexOf(names[i]), i);
+            QCOMPARE(table.indexOf(normalizedName(names[i])), i);
+            QCOMPARE(table.indexOf(QStringLiteral("_ ") + names[i].toUpper() + u'-'), i);
+            QCOMPARE(table.indexOf(QString(names[i]).chopped(1)), names[i] == u"Id 2" ? 0 : -1);
+        }
+        for (int known = 0; known <= static_cast<int>(Known::PresentPosition); ++known) {
+            const auto each = static_cast<Known>(known);
+            QCOMPARE(table.indexOf(each), table.indexOf(nameOf(each)));
+            QCOMPARE(table.find(each), table.find(nameOf(each)));
+        }
+        QCOMPARE(table.indexOf(Known::Led), 7);
+        QCOMPARE(table.indexOf(Known::BaudRate), -1);
+    }
+
     void anEmptyTableIsHarmless()
     {
         const ControlTable table{ControlTable::Description()};

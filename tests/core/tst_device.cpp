@@ -120,6 +120,19 @@ private slots:
         QCOMPARE(device.raw(u"Torque Enable"), 0);
     }
 
+    void aReadBackOvertakesWhatWasPolledBefore()
+    {
+        Device device(1, nullptr, smallTable(), Servo);
+        device.take(bytesAt(64, {1}, 5));
+        device.takeReadBack(device.table().indexOf(Known::TorqueEnable), 0);
+        QCOMPARE(device.raw(Known::TorqueEnable), 0);
+        device.take(bytesAt(64, {1}, 6)); // polled before it, delivered after it
+        QCOMPARE(device.raw(Known::TorqueEnable), 0);
+        device.takeReadBack(4, -1);
+        QCOMPARE(device.raw(u"Present Position"), -1);
+        QVERIFY(!device.raw(Known::Led)); // not in its table
+    }
+
     void silenceMakesEverythingStale()
     {
         Device device(1, nullptr, smallTable(), Servo);

@@ -221,9 +221,9 @@ private slots:
         World world(*m_catalog, Kind::Sync, servos, baudRate);
         const LineTime byteTime = world.line.byteTime();
         const LineTime begin = world.line.now();
-        const auto found = scanBaud(world.bus, 0, MaximumId, {});
+        const auto found = scanBaud(world.bus, {0, MaximumId}, {});
         QVERIFY(found);
-        QCOMPARE(found->size(), std::size_t(servos));
+        QCOMPARE(found->devices.size(), std::size_t(servos));
         const auto n = static_cast<LineTime::rep>(servos);
         const LineTime limit = 10 * byteTime + (253 - n) * 3ms + n * (14 * byteTime + Processing)
             + n * (24 * byteTime + Processing); // the confirmation: a Ping and its answer

@@ -2,8 +2,25 @@
 #include "core/bus/messages.h"
 #include "tests/support/testmain.h"
 
+#include <QTranslator>
+
 using namespace dynascope;
 using namespace std::chrono_literals;
+
+namespace {
+
+/// Knows every sentence of this context, and puts it in brackets.
+class Brackets final : public QTranslator
+{
+public:
+    bool isEmpty() const override { return false; }
+    QString translate(const char *context, const char *text, const char *, int) const override
+    {
+        return QLatin1String(context) == QLatin1String("Messages") ? u'<' + QString::fromUtf8(text) + u'>' : QString();
+    }
+};
+
+} // namespace
 
 class TestMessages : public QObject
 {
@@ -38,6 +55,49 @@ private slots:
             QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud"));
         row("rate off", messages::rateRefused(port, 4'500'000, 4'000'000),
             QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud: it would send at 4000000, more than 3 % off"));
+        const QString server = QStringLiteral("tcp://pi:4000");
+        const QString host = QStringLiteral("pi");
+        row("address", messages::addressMalformed(QStringLiteral("tcp://pi")),
+            QStringLiteral("tcp://pi is no address: it is written tcp://HOST:PORT, tcp://HOST:PORT?baud=RATE or "
+                           "rfc2217://HOST:PORT, an IPv6 address in brackets"));
+        row("port number", messages::portNumberWrong(QStringLiteral("tcp://pi:0"), QStringLiteral("0")),
+            QStringLiteral("tcp://pi:0: a port is a number from 1 to 65535, not \"0\""));
+        row("no host", messages::hostUnknown(server, host), QStringLiteral("tcp://pi:4000: there is no host pi"));
+        row("no name server", messages::nameServerSilent(server, host),
+            QStringLiteral("tcp://pi:4000: no name server says where the host pi is: is the network up?"));
+        row("host silent", messages::hostSilent(server, host, 5s),
+            QStringLiteral("tcp://pi:4000: pi did not answer within 5 s: is it on, and no firewall between?"));
+        row("unreachable", messages::hostUnreachable(server, host, QStringLiteral("No route to host")),
+            QStringLiteral("tcp://pi:4000: pi can't be reached: No route to host"));
+        row("connection refused", messages::connectionRefused(server),
+            QStringLiteral(
+                "tcp://pi:4000 refused the connection: nothing listens there. Is the serial server running, and "
+                "the port number right?"));
+        row("ended at once", messages::connectionEnded(server, {}),
+            QStringLiteral(
+                "tcp://pi:4000 ended the connection at once: is its serial port plugged in, and used by nobody "
+                "else?"));
+        row("ended with words", messages::connectionEnded(server, QStringLiteral("Port already in use")),
+            QStringLiteral(
+                "tcp://pi:4000 ended the connection at once (\"Port already in use\"): is its serial port plugged "
+                "in, and used by nobody else?"));
+        row("connection lost", messages::connectionLost(server),
+            QStringLiteral("the connection to tcp://pi:4000 is lost: the server ended it, or the network is down"));
+        row("no RFC 2217", messages::notRfc2217(server),
+            QStringLiteral(
+                "tcp://pi:4000 does not let its port be controlled (RFC 2217). If it passes raw bytes on, open it "
+                "as tcp://"));
+        row("rate not confirmed", messages::rateNotConfirmed(server, 57600),
+            QStringLiteral(
+                "tcp://pi:4000 did not confirm 57600 baud: the rate is unknown now, so the connection was ended"));
+        row("server's rate", messages::rateIsTheServers(server, 57600),
+            QStringLiteral(
+                "tcp://pi:4000 can't be set to 57600 baud: the rate is the server's, changed in its settings, or "
+                "through rfc2217:// where it offers that"));
+        row("device at the server's rate", messages::deviceRateBound(server),
+            QStringLiteral(
+                "the rate of tcp://pi:4000 is the server's, and a device at another one would not be heard there "
+                "any more; nothing was written"));
         row("level", messages::silentByLevel(3, 0),
             QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping"));
         row("limit", messages::refused(3, DeviceError::DataLimit),
@@ -53,6 +113,27 @@ private slots:
         QFETCH(QString, text);
         QFETCH(QString, expected);
         QCOMPARE(text, expected);
+    }
+
+    void canBeTranslated()
+    {
+        Brackets brackets;
+        QCoreApplication::installTranslator(&brackets);
+        const QString port = QStringLiteral("p");
+        const std::vector<Error> all{messages::nothingReceived(1, 1ms), messages::noHeader(1, 2),
+            messages::cutOff(1, 2, 0), messages::cutOff(1, 2, 3), messages::damagedCrc(1), messages::wrongId(1, {2, 3}),
+            messages::wrongLength(1, 2, 3), messages::refused(1, DeviceError::Access), messages::chainBroken(1, 2),
+            messages::silentByLevel(1, 1), messages::mayBeWritten(messages::damagedCrc(1)),
+            messages::notWritten(messages::damagedCrc(1), {}, {}), messages::stopped(), messages::cancelled(),
+            messages::closed(port), messages::notConfirmed(1, {}, {}), messages::packetTooLong(2, 1),
+            messages::portNotFound(port), messages::portEmpty(port),
+            messages::portForbidden(port), messages::portBusy(port, port), messages::portBusy(port, {}),
+            messages::portNotSerial(port), messages::portFailed(port, port), messages::portLost(port),
+            messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0)};
+        QCoreApplication::removeTranslator(&brackets);
+        for (const Error &error : all)
+            QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));
+        QCOMPARE(messages::wrongId(1, {2}).text, QStringLiteral("device 1 did not answer, but device 2 did"));
     }
 
     void saysDurationsShortly()

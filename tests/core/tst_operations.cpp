@@ -247,7 +247,8 @@ private slots:
             Bus bus(line);
             return exchangetext::untimed(writeVerified(bus, {3, 9, {5}}).error().text);
         };
-        const QString silence = QStringLiteral("device 3 did not answer: nothing was received in time");
+        const QString silence = QStringLiteral("device 3 did not answer: nothing was received in time; nothing else on the "
+                                               "line has answered lately");
         const QString mayBe = QStringLiteral("; the write may have been executed");
         QCOMPARE(verified([](const Bytes &) { return FakeLine::Answer(); }), silence + mayBe);
         // Answers Ping, which proves that nothing older is in flight, and the write, but no Read.
@@ -272,11 +273,11 @@ private slots:
         devices.servos[9].baudRate = 57600;
         Bus bus(line);
         std::vector<int> shown;
-        const auto found = scanBaud(bus, 1, 252, [&](const Found &device) { shown.push_back(device.id); });
+        const auto found = scanBaud(bus, {1, 252}, [&](const Found &device) { shown.push_back(device.id); });
         QVERIFY(found);
         QCOMPARE(shown, (std::vector<int>{1, 7, 200}));
-        QCOMPARE(found->size(), std::size_t(3));
-        QCOMPARE((*found)[1], (Found{7, 1'000'000, 1025, 45, false, {}}));
+        QCOMPARE(found->devices.size(), std::size_t(3));
+        QCOMPARE(found->devices[1], (Found{7, 1'000'000, 1025, 45, false, {}}));
         QVERIFY(line.now() < 900ms);
     }
 
@@ -285,7 +286,7 @@ private slots:
         FakeLine line;
         line.answer(oracle::status(9, 0xFF, {6, 4, 38}));
         Bus bus(line);
-        QCOMPARE(scanBaud(bus, 0, 252, {}).value().size(), std::size_t(0));
+        QCOMPARE(scanBaud(bus, {0, 252}, {}).value().devices.size(), std::size_t(0));
     }
 
     void scanDoubtsWhoSharesAnId()
@@ -296,9 +297,9 @@ private slots:
             return {{500us, oracle::status(1, 0, {6, 4, 38})}, {600us, oracle::status(1, 0, {6, 4, 38})}};
         };
         Bus bus(line);
-        const auto found = scanBaud(bus, 0, 252, {});
-        QCOMPARE(found->size(), std::size_t(1));
-        QVERIFY2(found->front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->front().doubt));
+        const auto found = scanBaud(bus, {0, 252}, {});
+        QCOMPARE(found->devices.size(), std::size_t(1));
+        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
     }
 
     void scanFindsWhoCanNotBeRead()
@@ -313,18 +314,81 @@ private slots:
             return {{500us, packet}};
         };
         Bus bus(line);
-        const auto found = scanBaud(bus, 0, 252, {});
-        QCOMPARE(found->size(), std::size_t(1));
-        QCOMPARE(found->front().id, std::uint8_t(1));
-        QVERIFY2(found->front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->front().doubt));
+        const auto found = scanBaud(bus, {0, 252}, {});
+        QCOMPARE(found->devices.size(), std::size_t(1));
+        QCOMPARE(found->devices.front().id, std::uint8_t(1));
+        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
+    }
+
+    void scanSaysThatSomebodyIsThere()
+    {
+        FakeLine line;
+        line.answer({0x12, 0xFE, 0x40, 0x81, 0x22, 0x97}); // nobody's packet, and nobody answers a Ping of its own
+        Bus bus(line);
+        const auto found = scanBaud(bus, {0, 252}, {});
+        QVERIFY(found && found->devices.empty());
+        QVERIFY2(found->unreadable.contains(QStringLiteral("6 bytes came")), qPrintable(found->unreadable));
+    }
+
+    void anEchoIsNobody_data()
+    {
+        QTest::addColumn<bool>("sweep");
+        QTest::newRow("broadcast") << false;
+        QTest::newRow("sweep") << true;
+    }
+
+    void anEchoIsNobody()
+    {
+        QFETCH(bool, sweep);
+        FakeLine line;
+        line.echo = true;
+        Bus bus(line);
+        const auto found = scanBaud(bus, {0, 252, sweep}, {});
+        QVERIFY(found && found->devices.empty());
+        QCOMPARE(found->unreadable, QString());
+    }
+
+    void sweepsWhereABroadcastFails()
+    {
+        FakeLine line;
+        line.handler = [](const Bytes &request) -> FakeLine::Answer {
+            if (request[4] != 1 && request[4] != 7)
+                return {};
+            return {{500us, oracle::status(request[4], 0, {6, 4, 38})}};
+        };
+        Bus bus(line);
+        std::vector<int> shown;
+        const auto found = scanBaud(bus, {0, 20, true}, [&](const Found &device) { shown.push_back(device.id); });
+        QVERIFY(found);
+        QCOMPARE(shown, (std::vector<int>{1, 7}));
+        QCOMPARE(line.sent.size(), std::size_t(21));
+        QVERIFY(line.now() < 60ms);
+    }
+
+    void aSilentOneIsToldWithThoseAlive()
+    {
+        FakeLine line;
+        line.handler = [](const Bytes &request) -> FakeLine::Answer {
+            if (request[4] == 9)
+                return {};
+            return {{500us, oracle::status(request[4], 0, {6, 4, 38})}};
+        };
+        Bus bus(line);
+        QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("nothing else on the line has answered lately")));
+        QVERIFY(ping(bus, 1));
+        QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("; device 1 on this line answers")));
+        QVERIFY(ping(bus, 3));
+        QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("; devices 1, 3 on this line answer")));
+        QVERIFY(bus.wait(1min));
+        QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("nothing else on the line has answered lately")));
     }
 
     void scanOfNobody()
     {
         FakeLine line;
         Bus bus(line);
-        const auto found = scanBaud(bus, 0, 252, {});
-        QVERIFY(found && found->empty());
+        const auto found = scanBaud(bus, {0, 252}, {});
+        QVERIFY(found && found->devices.empty() && found->unreadable.isEmpty());
     }
 };
 

@@ -52,7 +52,8 @@ private slots:
         DirectContext context(*wire.bus);
         const auto found = changeId(context, {place(1), 2, IdRegister, true});
         QVERIFY(!found);
-        QCOMPARE(found.error().text, QStringLiteral("ID 2 is taken: something answers there; nothing was written"));
+        QCOMPARE(found.error().text,
+                 QStringLiteral("ID 2 at 57600 bps is taken: something answers there; nothing was written"));
         for (const sim::WireEntry &entry : wire.simulated.log()) {
             if (entry.fromController)
                 QVERIFY(entry.bytes[7] != 0x03);
@@ -115,7 +116,7 @@ private slots:
         DirectContext context(*wire.bus);
         const auto found = changeBaud(context, {place(1), 1000000, 3, BaudRegister, false});
         QVERIFY(!found);
-        QVERIFY(found.error().text.startsWith(QStringLiteral("ID 1 is taken at 1000000 bps")));
+        QVERIFY(found.error().text.startsWith(QStringLiteral("ID 1 at 1000000 bps is taken")));
         QVERIFY(ping(*wire.bus, 1));
     }
 

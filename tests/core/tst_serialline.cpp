@@ -144,6 +144,7 @@ private slots:
             const auto line = open(link);
             QCOMPARE(line->name(), link);
             QCOMPARE(errorOf(wire.path()).kind, ErrorKind::PortBusy); // by another name
+            QCOMPARE(errorOf(link).text, link + QStringLiteral(" is in use by this program: close that first"));
             QCOMPARE(errorOf(link).kind, ErrorKind::PortBusy);
             QVERIFY(line->write(Bytes{1}));
         }

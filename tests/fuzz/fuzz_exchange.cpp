@@ -110,9 +110,9 @@ void readManyAndCheck(Bus &bus, fuzz::HostileLine &line, const std::vector<Span>
 
 void scanAndCheck(Bus &bus, fuzz::HostileLine &line)
 {
-    const auto found = scanBaud(bus, 0, 40, {});
+    const auto found = scanBaud(bus, {0, 40}, {});
     const Bytes stream = line.takeDelivered();
-    for (const Found &device : found.value_or(std::vector<Found>())) {
+    for (const Found &device : found.value_or(BaudScan()).devices) {
         const Bytes data{std::uint8_t(device.modelNumber), std::uint8_t(device.modelNumber >> 8), device.firmware};
         must(device.id <= MaximumId, "only devices are found");
         if (!device.doubt.isEmpty() && device.modelNumber == 0) // somebody is there, but can't be read

@@ -15,7 +15,9 @@ target_sources(dynascope_test_support PRIVATE
 if(UNIX)
     target_sources(dynascope_test_support PRIVATE
         support/dxlprocess_posix.cpp support/dxlprocess.h
+        support/ser2net_posix.cpp support/ser2net.h
         support/ptyclient_posix.cpp support/ptyclient.h
+        support/loopbackserver_posix.cpp support/loopbackserver.h
         support/ptymaster_posix.cpp support/ptymaster.h
     )
 endif()

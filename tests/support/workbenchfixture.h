@@ -8,14 +8,19 @@
 #include "core/table/catalog.h"
 #include "ui/common/workbench.h"
 
+#include <algorithm>
 #include <atomic>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <utility>
 
 namespace dynascope::test {
 
 /// Opens "sim" and anything that begins with "/dev/": the same servos, made on the bus thread that will own them. Who
 /// waits for an answer waits in virtual time; the wall's comes on top, or an idle line would stand still.
-/// "/dev/forbidden" can't be opened; unplug() takes the wire away.
+/// "/dev/forbidden" can't be opened; unplug() takes every wire away, plug() those that are not named.
 class VirtualLines final : public LineFactory, public PortList
 {
 public:
@@ -32,11 +37,19 @@ public:
             return failure(ErrorKind::PortForbidden, QStringLiteral("No permission to open /dev/forbidden"));
         if (m_unplugged)
             return failure(ErrorKind::PortNotFound, QStringLiteral("%1 isn't there").arg(name));
-        return std::make_unique<VirtualLine>(m_catalog, m_servos, name, baudRate, m_unplugged);
+        const std::scoped_lock lock(m_mutex);
+        if (m_plugged && !m_plugs.contains(name) && name != QStringLiteral("sim"))
+            return failure(ErrorKind::PortNotFound, QStringLiteral("%1 isn't there").arg(name));
+        std::shared_ptr<std::atomic<bool>> &out = m_plugs[name];
+        if (!out)
+            out = std::make_shared<std::atomic<bool>>(false);
+        return std::make_unique<VirtualLine>(m_catalog, m_servos, name, baudRate, m_unplugged, out);
     }
 
     std::vector<PortInfo> ports() const override
     {
+        if (m_plugged)
+            return *m_plugged;
         if (m_unplugged)
             return {{QStringLiteral("sim"), QStringLiteral("Simulated bus"), {}}};
         return {{QStringLiteral("/dev/ttyUSB0"), QStringLiteral("U2D2"), QStringLiteral("FT1")},
@@ -45,13 +58,31 @@ public:
 
     void unplug(bool out = true) { m_unplugged = out; }
 
+    /// From now on these ports are there and no other.
+    void plug(std::vector<PortInfo> ports)
+    {
+        const std::scoped_lock lock(m_mutex);
+        std::erase_if(m_plugs, [&ports](const auto &plug) {
+            const bool stays = std::ranges::find(ports, plug.first, &PortInfo::name) != ports.end();
+            if (!stays)
+                *plug.second = true;
+            return !stays;
+        });
+        for (const PortInfo &port : ports) {
+            std::shared_ptr<std::atomic<bool>> &out = m_plugs[port.name];
+            if (!out)
+                out = std::make_shared<std::atomic<bool>>(false);
+        }
+        m_plugged = std::move(ports);
+    }
+
 private:
     class VirtualLine final : public Line
     {
     public:
         VirtualLine(const Catalog &catalog, const QString &servos, QString name, int baudRate,
-            const std::atomic<bool> &unplugged)
-            : m_bus(catalog), m_name(std::move(name)), m_unplugged(unplugged)
+                    const std::atomic<bool> &unplugged, std::shared_ptr<const std::atomic<bool>> out)
+            : m_bus(catalog), m_name(std::move(name)), m_unplugged(unplugged), m_out(std::move(out))
         {
             const auto specs = sim::parseServoSpecs(servos, catalog);
             for (const sim::ServoSpec &spec : specs.value())
@@ -74,7 +105,7 @@ private:
         }
         Result<void> read(Bytes &buffer, LineTime deadline) override
         {
-            if (m_unplugged)
+            if (m_unplugged || *m_out)
                 m_line->unplug();
             return m_line->read(buffer, deadline);
         }
@@ -91,11 +122,15 @@ private:
         std::unique_ptr<sim::SimulatedLine> m_line;
         QString m_name;
         const std::atomic<bool> &m_unplugged;
+        const std::shared_ptr<const std::atomic<bool>> m_out;
     };
 
     const Catalog &m_catalog;
     QString m_servos;
     std::atomic<bool> m_unplugged = false;
+    std::mutex m_mutex; ///< ports come and go on the GUI's thread, are opened on others
+    std::map<QString, std::shared_ptr<std::atomic<bool>>> m_plugs; ///< true: pulled out
+    std::optional<std::vector<PortInfo>> m_plugged;                ///< what plug() said
 };
 
 /// All the window's parts work on, over VirtualLines. Nothing is polled: virtual time would run without end.

@@ -9,9 +9,12 @@
 #include "ui/connection/scanoptions.h"
 #include "ui/connection/stopbutton.h"
 
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
+#include <QScopeGuard>
+#include <QSemaphore>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QSpinBox>
@@ -116,6 +119,95 @@ private slots:
         QCOMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Connect"));
     }
 
+    void theListFollowsByItself()
+    {
+        auto *ports = find<PortCombo>("portCombo");
+        ports->setEditText(QStringLiteral("/dev/tt"));
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyACM0"), QStringLiteral("C")),
+                             port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("A")),
+                             port(QStringLiteral("/dev/ttyUSB1"), QStringLiteral("B"))});
+        QTRY_COMPARE(ports->count(), 3);
+        QCOMPARE(ports->itemText(0), QStringLiteral("/dev/ttyACM0"));
+        QCOMPARE(ports->itemText(2), QStringLiteral("/dev/ttyUSB1"));
+        QCOMPARE(ports->currentText(), QStringLiteral("/dev/tt")); // being typed
+        ports->setCurrentIndex(1);
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB1"), QStringLiteral("B"))});
+        QTRY_COMPARE(ports->count(), 1);
+        QCOMPARE(ports->port(), QStringLiteral("/dev/ttyUSB0")); // chosen, though it is out
+    }
+
+    void anAdapterThatComesBackElsewhere()
+    {
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("A"))});
+        connectNow();
+        m_bench->lines.plug({});
+        QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Reconnect"));
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB1"), QStringLiteral("A"))});
+        QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Disconnect"));
+        QCOMPARE(find<PortCombo>("portCombo")->port(), QStringLiteral("/dev/ttyUSB1"));
+        QVERIFY(m_said.contains(QStringLiteral("The adapter of /dev/ttyUSB0 is at /dev/ttyUSB1 now")));
+        QCOMPARE(Connector::lastPort(), QStringLiteral("/dev/ttyUSB1"));
+        QCOMPARE(m_bench->session.devices().size(), std::size_t(3));
+    }
+
+    void notReopenedWhereNotWanted()
+    {
+        m_connector->setReopening(false);
+        QVERIFY(!Connector::isReopening());
+        connectNow();
+        m_bench->lines.unplug();
+        QTRY_VERIFY(!m_said.isEmpty() && m_said.last().contains(QStringLiteral("is gone")));
+        QVERIFY(!m_said.last().contains(QStringLiteral("opened again")));
+        m_bench->lines.unplug(false);
+        QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
+        QTRY_COMPARE(m_bench->session.lines().front()->state(), BusThread::State::Open);
+    }
+
+    void anotherAdapterIsLeftAlone()
+    {
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("A"))});
+        connectNow();
+        m_bench->lines.plug({});
+        QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Reconnect"));
+        m_bench->lines.plug({port(QStringLiteral("/dev/ttyUSB0"), QStringLiteral("B"))});
+        QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
+        QVERIFY2(m_said.last().startsWith(QStringLiteral("Another adapter is at /dev/ttyUSB0")),
+                 qPrintable(m_said.last()));
+        QCOMPARE(m_bench->session.lines().front()->state(), BusThread::State::Lost);
+    }
+
+    void aServersRate_data()
+    {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<bool>("itsOwn");
+        QTest::newRow("raw") << QStringLiteral("tcp://host:4000") << true;
+        QTest::newRow("RFC 2217") << QStringLiteral("rfc2217://host:2217") << false;
+    }
+    void aServersRate()
+    {
+        QFETCH(QString, name);
+        QFETCH(bool, itsOwn);
+        auto *ports = find<PortCombo>("portCombo");
+        ports->setEditText(name);
+        QCOMPARE(find<QLabel>("serversRate")->isVisible(), itsOwn);
+        QCOMPARE(find<BaudCombo>("baudCombo")->isVisible(), !itsOwn);
+        QTest::keyClick(ports->lineEdit(), Qt::Key_Return);
+        QTRY_COMPARE(find<QPushButton>("connectButton")->text(), QStringLiteral("Disconnect"));
+        QTRY_COMPARE(find<ElidedLabel>("connectionState")->text(),
+                     itsOwn ? QStringLiteral("Connected at the server's rate")
+                            : QStringLiteral("Connected at 57\u2009600 bps"));
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
+        auto *options = m_bar->findChild<ScanOptions *>();
+        QCOMPARE(options->findChild<QListWidget *>(QStringLiteral("scanBauds"))->isVisibleTo(options), !itsOwn);
+        QCOMPARE(options->range(57600).bauds.size() == 1, itsOwn);
+        // Remembered: in the list from now on.
+        QCOMPARE(Connector::recentPorts().front(), name);
+        ports->refresh();
+        QCOMPARE(ports->itemText(ports->count() - 1), name);
+        ports->setCurrentIndex(0);
+        QVERIFY(find<BaudCombo>("baudCombo")->isVisible());
+    }
+
     void aPulledPlug()
     {
         connectNow();
@@ -148,25 +240,28 @@ private slots:
     void aWaitingScanEndsWithItsLineOrAtStop()
     {
         QFETCH(bool, stop);
-        bool acted = false;
-        const auto act = [&] {
-            LineSession *first = m_connector->scannedLine();
-            const auto open = [](const auto &line) { return line->state() == BusThread::State::Open; };
-            if (acted || !first || m_bench->session.lines().size() < 2
-                || !std::ranges::all_of(m_bench->session.lines(), open))
-                return;
-            acted = true;
-            const auto &lines = m_bench->session.lines();
-            if (stop)
-                m_bench->stop.press();
-            else
-                m_connector->disconnectFrom(*lines[lines[0].get() == first ? 1 : 0]);
-        };
-        connect(m_connector.get(), &Connector::changed, this, act, Qt::QueuedConnection);
-        m_connector->connectTo(QStringLiteral("/dev/ttyUSB0"), 1000000);
-        m_connector->connectTo(QStringLiteral("/dev/ttyUSB1"), 1000000);
-        QTRY_VERIFY(acted && !m_bench->scanner.isRunning());
-        m_connector->disconnect(this);
+        const QString one = QStringLiteral("/dev/ttyUSB0");
+        const QString other = QStringLiteral("/dev/ttyUSB1");
+        const auto go = std::make_shared<QSemaphore>(); // until then the first line's scan has not begun
+        m_connector->connectTo(one, 1000000);
+        m_connector->line(one)->bus().run<int>(
+            Priority::Click, nullptr,
+            [go](JobContext &) -> Result<int> {
+                go->acquire();
+                return 0;
+            },
+            [](const Result<int> &) {});
+        const auto letGo = qScopeGuard([go] { go->release(); });
+        QTRY_VERIFY(m_bench->scanner.isRunning());
+        m_connector->connectTo(other, 1000000);
+        QTRY_COMPARE(m_connector->line(other)->state(), BusThread::State::Open);
+        QCOMPARE(m_connector->scannedLine(), m_connector->line(one));
+        if (stop)
+            m_bench->stop.press();
+        else
+            m_connector->disconnectFrom(*m_connector->line(other));
+        go->release();
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
         QCoreApplication::processEvents();
         QVERIFY(!m_bench->scanner.isRunning());
         QVERIFY(m_bench->session.devices().size() <= 3);
@@ -238,6 +333,11 @@ private slots:
     }
 
 private:
+    static PortInfo port(const QString &name, const QString &identity)
+    {
+        return {name, QStringLiteral("U2D2"), identity, identity};
+    }
+
     template <typename T>
     T *find(const char *name)
     {

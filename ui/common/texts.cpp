@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/texts.h"
 
+#include "core/bus/networkaddress_values.h"
 #include "core/table/units.h"
 
 #include <QCoreApplication>
@@ -57,7 +58,10 @@ QString lineStateText(const LineSession &line)
 {
     switch (line.state()) {
     case BusThread::State::Opening: return Texts::tr("Opening…");
-    case BusThread::State::Open: return Texts::tr("Connected at %1").arg(baudText(line.baudRate()));
+    case BusThread::State::Open:
+        if (isRateTheServers(line.name()))
+            return Texts::tr("Connected at the server's rate");
+        return Texts::tr("Connected at %1").arg(baudText(line.baudRate()));
     case BusThread::State::Lost: return Texts::tr("Connection lost");
     case BusThread::State::Closed: break;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/connection/connectionbar.h"
 
+#include "core/bus/networkaddress_values.h"
 #include "core/session/commands.h"
 #include "core/session/scanner.h"
 #include "ui/common/elidedlabel.h"
@@ -28,6 +29,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     , m_workbench(workbench)
     , m_connector(connector)
     , m_port(new PortCombo(workbench.ports, this))
+    , m_rate(new QStackedWidget(this))
     , m_baud(new BaudCombo(this))
     , m_connect(new QPushButton(this))
     , m_scan(new QPushButton(this))
@@ -66,6 +68,8 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     connect(m_cancel, &QToolButton::clicked, &connector, &Connector::cancelScan);
     connect(m_options, &ScanOptions::scanRequested, this, &ConnectionBar::startScan);
     connect(&connector, &Connector::changed, this, &ConnectionBar::update);
+    connect(&connector, &Connector::portsChanged, m_port, &PortCombo::refresh);
+    connect(&connector, &Connector::moved, this, &ConnectionBar::onMoved);
     connect(&workbench.scanner, &Scanner::progressChanged, this, &ConnectionBar::updateScan);
     connect(&workbench.scanner, &Scanner::finished, this, &ConnectionBar::updateScan);
     update();
@@ -126,7 +130,14 @@ void ConnectionBar::addAll()
     m_port->setMinimumWidth(150);
     m_port->setMaximumWidth(260);
     layout->addWidget(m_port, 1);
-    layout->addWidget(m_baud);
+    auto *servers = new QLabel(tr("Rate is the server's"), m_rate);
+    servers->setObjectName(QStringLiteral("serversRate"));
+    servers->setToolTip(
+        tr("A raw TCP connection can't set it. Through rfc2217:// it can be, where the server offers that."));
+    m_rate->addWidget(m_baud);
+    m_rate->addWidget(servers);
+    m_rate->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    layout->addWidget(m_rate);
     layout->addWidget(m_connect);
     auto *scan = new QHBoxLayout;
     scan->setSpacing(2);
@@ -195,6 +206,12 @@ void ConnectionBar::onBaudChosen(int bitsPerSecond)
         });
 }
 
+void ConnectionBar::onMoved(const QString &formerPort, const QString &port)
+{
+    if (m_port->port() == formerPort)
+        m_port->setPort(port);
+}
+
 void ConnectionBar::update()
 {
     LineSession *line = currentLine();
@@ -203,6 +220,9 @@ void ConnectionBar::update()
     const bool broken = line && (state == BusThread::State::Lost || state == BusThread::State::Closed);
     const bool valid = !m_port->port().isEmpty() && m_baud->baudRate() > 0;
 
+    const bool serversRate = isRateTheServers(m_port->port());
+    m_rate->setCurrentIndex(serversRate ? 1 : 0);
+    m_options->setRatesOffered(!serversRate);
     m_connect->setText(!line ? tr("Connect") : broken ? tr("Reconnect") : tr("Disconnect"));
     m_connect->setIcon(icon(!line || broken ? QStringLiteral("connect") : QStringLiteral("disconnect")));
     m_connect->setEnabled(line || valid);
@@ -242,8 +262,11 @@ void ConnectionBar::updateScan()
     if (!running)
         return;
     m_progress->setValue(qRound(scanner.progress() * 1000));
-    m_progressText->setText(tr("%1, %n found", nullptr, scanner.found()).arg(baudText(scanner.currentBaud())));
-    m_progressText->setToolTip(tr("Scanning at %1").arg(baudText(scanner.currentBaud())));
+    const LineSession *line = m_connector.scannedLine();
+    const QString rate =
+        line && isRateTheServers(line->name()) ? tr("the server's rate") : baudText(scanner.currentBaud());
+    m_progressText->setText(tr("%1, %n found", nullptr, scanner.found()).arg(rate));
+    m_progressText->setToolTip(tr("Scanning at %1").arg(rate));
 }
 
 } // namespace dynascope

@@ -50,10 +50,12 @@ private:
     void update();
     void updateScan();
     void onBaudChosen(int bitsPerSecond);
+    void onMoved(const QString &formerPort, const QString &port);
 
     Workbench m_workbench;
     Connector &m_connector;
     PortCombo *m_port;
+    QStackedWidget *m_rate; ///< m_baud, or words where it is a server's
     BaudCombo *m_baud;
     QPushButton *m_connect;
     QPushButton *m_scan;

@@ -4,24 +4,20 @@
 #include "core/session/stopcontrol.h"
 #include "ui/common/texts.h"
 
-#include <QFileInfo>
 #include <QSettings>
 #include <QUrl>
 
 #include <algorithm>
-#include <chrono>
 
 namespace dynascope {
 
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto RetryInterval = 1s;
 constexpr int MostRecent = 6;
 
 const QString PortKey = QStringLiteral("connection/port");
 const QString RecentKey = QStringLiteral("connection/recent");
+const QString ReopenKey = QStringLiteral("connection/reopen");
 
 /// A path has slashes, which would make groups of settings.
 QString baudKey(const QString &port)
@@ -32,11 +28,14 @@ QString baudKey(const QString &port)
 } // namespace
 
 Connector::Connector(const Workbench &workbench, QObject *parent)
-    : QObject(parent)
-    , m_workbench(workbench)
+    : QObject(parent), m_workbench(workbench), m_reopener(workbench.session, workbench.ports)
 {
-    m_retryTimer.setInterval(RetryInterval);
-    connect(&m_retryTimer, &QTimer::timeout, this, &Connector::tryAgain);
+    m_reopener.setAutomatic(isReopening());
+    connect(&m_reopener, &Reopener::portsChanged, this, &Connector::portsChanged);
+    connect(&m_reopener, &Reopener::lineBack, this, &Connector::onBack);
+    connect(&m_reopener, &Reopener::lineRefused, this, [this](LineSession *, const Error &why) {
+        emit posted({MessageKind::Warning, why.text, {}, {}});
+    });
     connect(&workbench.session, &Session::lineAdded, this, &Connector::follow);
     connect(&workbench.session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
         forget(line);
@@ -82,7 +81,8 @@ void Connector::reconnect(LineSession &line)
 {
     if (line.state() != BusThread::State::Lost && line.state() != BusThread::State::Closed)
         return; // it is back already
-    line.reopen();
+    if (const Result<void> asked = m_reopener.reopen(line); !asked)
+        emit posted({MessageKind::Warning, asked.error().text, {}, {}});
 }
 
 void Connector::scan(LineSession &line, const ScanRange &range)
@@ -139,10 +139,10 @@ void Connector::onLost(LineSession *line)
 {
     if (m_lost.contains(line))
         return;
-    m_retryTimer.start();
     const QString why = line->bus().error().text;
-    const QString text = tr("%1 is gone%2. It is opened again when it comes back.")
-                             .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
+    const QString text =
+        (m_reopener.isAutomatic() ? tr("%1 is gone%2. It is opened again when it comes back.") : tr("%1 is gone%2."))
+            .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
     m_lost.insert(line, text);
     emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
                      if (where)
@@ -220,25 +220,24 @@ void Connector::forget(LineSession *line)
         emit retracted(m_lost.take(line));
 }
 
-bool Connector::isThere(const QString &port) const
+void Connector::onBack(LineSession *line, const QString &formerPort)
 {
-    const auto ports = m_workbench.ports.ports();
-    return std::ranges::any_of(ports, [&port](const PortInfo &info) { return info.name == port; })
-        || QFileInfo::exists(port);
+    if (line->name() == formerPort)
+        return;
+    remember(line->name(), line->baudRate());
+    emit moved(formerPort, line->name());
+    emit posted({MessageKind::Info, tr("The adapter of %1 is at %2 now").arg(formerPort, line->name()), {}, {}});
 }
 
-void Connector::tryAgain()
+void Connector::setReopening(bool byItself)
 {
-    if (m_lost.isEmpty()) {
-        m_retryTimer.stop();
-        return;
-    }
-    const QList<LineSession *> waiting = m_lost.keys();
-    for (LineSession *line : waiting) {
-        const bool idle = line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed;
-        if (idle && isThere(line->name()))
-            line->reopen();
-    }
+    QSettings().setValue(ReopenKey, byItself);
+    m_reopener.setAutomatic(byItself);
+}
+
+bool Connector::isReopening()
+{
+    return QSettings().value(ReopenKey, true).toBool();
 }
 
 QString Connector::lastPort()

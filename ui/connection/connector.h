@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/reopener.h"
 #include "core/session/scanner.h"
 #include "core/session/session.h"
 #include "ui/common/messagebar.h"
@@ -11,8 +12,8 @@
 
 namespace dynascope {
 
-/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its port is back. One line
-/// is scanned at a time; others wait for their turn, until STOP.
+/// Opens and closes lines, scans a line when it first opens, and opens a lost one again once its adapter is back. One
+/// line is scanned at a time; others wait for their turn, until STOP.
 class Connector : public QObject
 {
     Q_OBJECT
@@ -25,6 +26,7 @@ public:
     void reconnect(LineSession &line);
     void scan(LineSession &line, const ScanRange &range);
     void cancelScan();
+    void setReopening(bool byItself); ///< whether lost lines are opened again unasked; remembered
 
     LineSession *line(const QString &port) const; ///< nullptr where none of that name is open
     LineSession *scannedLine() const { return m_scanned; }
@@ -34,12 +36,15 @@ public:
     static QString lastPort();
     static int lastBaudRate(const QString &port); ///< 57 600, on the simulated bus 1 M, where it never was open
     static QStringList recentPorts(); ///< newest first
+    static bool isReopening();
     /// @}
 
 signals:
     void changed(); ///< a line came, went, or is in another state
     void posted(const dynascope::Message &message);
-    void retracted(const QString &text); ///< what this message said is no longer so
+    void retracted(const QString &text);                        ///< what this message said is no longer so
+    void portsChanged();                                        ///< something was plugged in or pulled out
+    void moved(const QString &formerPort, const QString &port); ///< a line's adapter has come back elsewhere
 
 private:
     void follow(LineSession *line);
@@ -51,8 +56,7 @@ private:
     void reportScan(int found, const QString &trouble);
     void scanNext();
     void forget(LineSession *line);
-    void tryAgain();
-    bool isThere(const QString &port) const;
+    void onBack(LineSession *line, const QString &formerPort);
     static void remember(const QString &port, int baudRate);
 
     Workbench m_workbench;
@@ -65,7 +69,7 @@ private:
     QSet<LineSession *> m_opened;         ///< have been open at least once
     QMap<LineSession *, QString> m_lost;  ///< wait for their port, with the words that said they are gone
     QMap<QString, QString> m_refused;     ///< ports that couldn't be opened, with the words that said why
-    QTimer m_retryTimer;
+    Reopener m_reopener;
 };
 
 } // namespace dynascope

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/connection/portcombo.h"
 
+#include "core/bus/networkaddress_values.h"
 #include "core/session/session.h"
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
+#include "ui/connection/connector.h"
 
 #include <QLineEdit>
 #include <QSignalBlocker>
+
+#include <algorithm>
 
 namespace dynascope {
 
@@ -19,7 +23,9 @@ PortCombo::PortCombo(PortList &ports, QWidget *parent)
     setInsertPolicy(QComboBox::NoInsert);
     setMinimumContentsLength(16);
     setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-    setToolTip(tr("Port of the bus: choose one, or type a path (Ctrl+L)"));
+    setToolTip(
+        tr("Port of the bus: choose one, or type a path, or a serial server: tcp://host:port, rfc2217://host:port "
+           "(Ctrl+L)"));
     setAccessibleName(tr("Port"));
     lineEdit()->setPlaceholderText(tr("No port found"));
     connect(this, &QComboBox::editTextChanged, this, &PortCombo::portChanged);
@@ -46,29 +52,59 @@ void PortCombo::setPort(const QString &name)
         setEditText(name);
 }
 
+std::vector<PortCombo::Entry> PortCombo::entries() const
+{
+    std::vector<Entry> entries;
+    for (const PortInfo &info : m_ports.ports()) {
+        const QString tip = info.serialNumber.isEmpty()
+                                ? info.description
+                                : QStringLiteral("%1 (%2)").arg(info.description, info.serialNumber);
+        entries.push_back({info.name, tip});
+    }
+    for (const QString &name : Connector::recentPorts()) {
+        if (NetworkAddress::isNetworkName(name))
+            entries.push_back({name, tr("Serial server, used before")});
+    }
+    return entries;
+}
+
+/// Entry by entry: an open list stays open, and what is being typed stays as it is.
 void PortCombo::refresh()
 {
     const QString before = port();
+    const QString typed = currentText();
+    const int cursor = lineEdit()->cursorPosition();
     {
         const QSignalBlocker blocker(this);
-        clear();
-        for (const PortInfo &info : m_ports.ports()) {
-            const bool simulated = info.name == QStringLiteral("sim");
-            const QString text = portText(info.name);
-            addItem(icon(simulated ? QStringLiteral("servo") : QStringLiteral("plug")), text, info.name);
-            QString tip = info.description;
-            if (!info.serialNumber.isEmpty())
-                tip += QStringLiteral(" (%1)").arg(info.serialNumber);
-            setItemData(count() - 1, tip, Qt::ToolTipRole);
+        const std::vector<Entry> wanted = entries();
+        for (int at = count() - 1; at >= 0; --at) {
+            if (std::ranges::find(wanted, itemData(at).toString(), &Entry::name) == wanted.end())
+                removeItem(at);
         }
+        for (int at = 0; at < static_cast<int>(wanted.size()); ++at)
+            place(wanted[static_cast<std::size_t>(at)], at);
         const int index = findData(before);
-        if (index >= 0)
+        if (index >= 0) {
             setCurrentIndex(index);
-        else if (!before.isEmpty())
-            setEditText(before);
+        } else if (!before.isEmpty()) {
+            setEditText(typed);
+            lineEdit()->setCursorPosition(cursor);
+        }
     }
     if (port() != before)
         emit portChanged();
+}
+
+void PortCombo::place(const Entry &entry, int at)
+{
+    if (itemData(at).toString() != entry.name) {
+        if (const int elsewhere = findData(entry.name); elsewhere >= 0)
+            removeItem(elsewhere);
+        const bool simulated = entry.name == QStringLiteral("sim");
+        insertItem(at, icon(simulated ? QStringLiteral("servo") : QStringLiteral("plug")), portText(entry.name),
+                   entry.name);
+    }
+    setItemData(at, entry.tip, Qt::ToolTipRole);
 }
 
 void PortCombo::showPopup()

@@ -3,11 +3,14 @@
 
 #include <QComboBox>
 
+#include <vector>
+
 namespace dynascope {
 
 class PortList;
 
-/// The ports there are, looked up anew whenever the list opens; any other path can be typed.
+/// The ports there are, and the serial servers used before; any other path or address can be typed. refresh() brings it
+/// up to date, also while it is open; opening it does.
 class PortCombo : public QComboBox
 {
     Q_OBJECT
@@ -25,6 +28,13 @@ signals:
     void portChanged();
 
 private:
+    struct Entry {
+        QString name;
+        QString tip;
+    };
+    std::vector<Entry> entries() const;
+    void place(const Entry &entry, int at);
+
     PortList &m_ports;
 };
 

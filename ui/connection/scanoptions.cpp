@@ -31,7 +31,8 @@ QSpinBox *idSpin(const QString &name, int value, QWidget *parent)
 
 ScanOptions::ScanOptions(QWidget *parent)
     : QFrame(parent, Qt::Popup)
-    , m_bauds(new QListWidget(this))
+    , m_rates(new QWidget(this))
+    , m_bauds(new QListWidget(m_rates))
     , m_firstId(idSpin(QStringLiteral("scanFirstId"), 0, this))
     , m_lastId(idSpin(QStringLiteral("scanLastId"), 252, this))
     , m_summary(new QLabel(this))
@@ -71,13 +72,16 @@ ScanOptions::ScanOptions(QWidget *parent)
 
 void ScanOptions::build()
 {
-    auto *likely = new QPushButton(tr("Likely"), this);
-    auto *all = new QPushButton(tr("All"), this);
-    auto *none = new QPushButton(tr("None"), this);
+    auto *likely = new QPushButton(tr("Likely"), m_rates);
+    auto *all = new QPushButton(tr("All"), m_rates);
+    auto *none = new QPushButton(tr("None"), m_rates);
     likely->setToolTip(tr("The rates a servo with a standard setting can have"));
     connect(likely, &QPushButton::clicked, this, [this] { setBauds(likelyBauds(0)); });
     connect(all, &QPushButton::clicked, this, [this] { setBauds(allBauds()); });
     connect(none, &QPushButton::clicked, this, [this] { setBauds({}); });
+    auto *rates = new QVBoxLayout(m_rates);
+    rates->setContentsMargins(0, 0, 0, 8);
+    rates->setSpacing(8);
     auto *choices = new QHBoxLayout;
     for (QPushButton *button : {likely, all, none})
         choices->addWidget(button);
@@ -92,10 +96,10 @@ void ScanOptions::build()
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(16, 16, 16, 16);
     layout->setSpacing(8);
-    layout->addWidget(new QLabel(tr("Baud rates"), this));
-    layout->addWidget(m_bauds);
-    layout->addLayout(choices);
-    layout->addSpacing(8);
+    rates->addWidget(new QLabel(tr("Baud rates"), m_rates));
+    rates->addWidget(m_bauds);
+    rates->addLayout(choices);
+    layout->addWidget(m_rates);
     layout->addLayout(ids);
     layout->addWidget(m_summary);
     layout->addWidget(m_scan);
@@ -107,6 +111,14 @@ void ScanOptions::popup(const QPoint &position)
     move(position);
     show();
     m_scan->setFocus();
+}
+
+void ScanOptions::setRatesOffered(bool offered)
+{
+    if (m_rates->isVisibleTo(this) == offered)
+        return;
+    m_rates->setVisible(offered);
+    update();
 }
 
 std::vector<int> ScanOptions::checkedBauds() const
@@ -124,9 +136,10 @@ ScanRange ScanOptions::range(int lastUsedBaud) const
     const std::vector<int> order = likelyBauds(lastUsedBaud);
     const auto rank = [&order](int baud) { return std::ranges::find(order, baud) - order.begin(); };
     ScanRange range;
-    range.bauds = checkedBauds();
+    range.bauds = m_rates->isVisibleTo(this) ? checkedBauds() : std::vector{lastUsedBaud};
     // A line may work at a rate that is in no list; it is the likeliest of all.
-    if (lastUsedBaud > 0 && std::ranges::find(allBauds(), lastUsedBaud) == allBauds().end())
+    if (lastUsedBaud > 0 && m_rates->isVisibleTo(this)
+        && std::ranges::find(allBauds(), lastUsedBaud) == allBauds().end())
         range.bauds.push_back(lastUsedBaud);
     std::ranges::stable_sort(range.bauds, {}, rank);
     range.firstId = m_firstId->value();
@@ -145,7 +158,7 @@ void ScanOptions::setBauds(const std::vector<int> &bauds)
 
 void ScanOptions::update()
 {
-    const auto count = static_cast<int>(checkedBauds().size());
+    const auto count = m_rates->isVisibleTo(this) ? static_cast<int>(checkedBauds().size()) : 1;
     const double seconds = count * (m_lastId->value() + 1) * SecondsPerId;
     m_summary->setText(count == 0 ? tr("Choose at least one baud rate")
                                   : tr("Takes about %1 s").arg(qMax(1, qRound(seconds))));

@@ -24,6 +24,7 @@ public:
     /// In the order of likelyBauds(): most promising first.
     ScanRange range(int lastUsedBaud) const;
     void setBauds(const std::vector<int> &bauds);
+    void setRatesOffered(bool offered); ///< false: the line has the one rate it has
 
 signals:
     void scanRequested();
@@ -33,6 +34,7 @@ private:
     void update();
     std::vector<int> checkedBauds() const;
 
+    QWidget *m_rates; ///< all that is about baud rates
     QListWidget *m_bauds;
     QSpinBox *m_firstId;
     QSpinBox *m_lastId;

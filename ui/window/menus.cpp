@@ -48,6 +48,10 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
     connect(m_connect, &QAction::triggered, this, &Menus::toggleConnectionRequested);
     QMenu *recent = menu->addMenu(tr("&Recent ports"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { fillRecent(recent); });
+    QAction *reopen = add(menu, QStringLiteral("reopenAction"), tr("Reconnect &by itself when plugged in again"), {});
+    reopen->setCheckable(true);
+    reopen->setChecked(Connector::isReopening());
+    connect(reopen, &QAction::toggled, this, &Menus::reopeningToggled);
     menu->addSeparator();
     m_scan = add(menu, QStringLiteral("scanAction"), tr("&Scan"), QStringLiteral("Ctrl+R"), QStringLiteral("scan"));
     connect(m_scan, &QAction::triggered, this, &Menus::scanRequested);

@@ -33,6 +33,7 @@ signals:
     void choosePortRequested();
     void toggleConnectionRequested();
     void connectRequested(const QString &port);
+    void reopeningToggled(bool byItself);
     void scanRequested();
     void scanOptionsRequested();
     void schemeRequested(dynascope::ColorScheme scheme);

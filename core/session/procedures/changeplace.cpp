@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of ID and baud rate, and Factory Reset: after them the device stands elsewhere.
+#include "core/bus/messages.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/procedures/procedures.h"
 
@@ -33,20 +34,40 @@ Result<void> freeEeprom(Bus &bus, const DevicePlace &place, bool turnTorqueOff)
     return off ? Result<void>() : tl::unexpected(off.error());
 }
 
-/// The model that answers there, if one does. Noise counts as somebody: the place isn't free.
-Result<std::optional<Found>> whoIsAt(Bus &bus, std::uint8_t id)
+QString placeText(std::uint8_t id, int baudRate)
 {
-    const auto reply = ping(bus, id);
-    if (reply)
-        return Found{id, bus.line().baudRate(), reply->modelNumber, reply->firmware, reply->alert, {}};
-    if (reply.error().kind == ErrorKind::NothingReceived)
-        return std::nullopt;
-    return tl::unexpected(reply.error());
+    return tr("ID %1 at %2 bps").arg(id).arg(baudRate);
 }
 
-bool isThere(const Result<std::optional<Found>> &who, std::uint16_t modelNumber)
+QString placeText(const DevicePlace &place)
 {
-    return who && *who && (*who)->modelNumber == modelNumber;
+    return placeText(place.id, place.baudRate);
+}
+
+/// Not about the place: nothing more is asked.
+bool endsAll(const Error &error)
+{
+    return error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::PortLost;
+}
+
+/// Tried, not believed: a device at a rate that the port can't do would be lost to it. Noise counts as somebody.
+Result<void> checkFree(JobContext &context, const DevicePlace &place)
+{
+    Bus &bus = context.bus();
+    const AtBaud there(bus, place.baudRate);
+    if (!there.entered() && there.entered().error().kind == ErrorKind::PortUnsuitable) {
+        return failure(ErrorKind::PortUnsuitable,
+                       tr("%1; nothing was written").arg(there.entered().error().text));
+    }
+    if (!there.entered())
+        return there.entered();
+    const auto reply = ping(bus, place.id);
+    if (!reply && reply.error().kind == ErrorKind::NothingReceived)
+        return {};
+    if (!reply && endsAll(reply.error()))
+        return tl::unexpected(reply.error());
+    return failure(ErrorKind::InvalidArgument,
+                   tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
 }
 
 /// EEPROM writes take up to tens of milliseconds and their status may come from either place: never sent twice.
@@ -58,113 +79,91 @@ Result<void> writeOnce(Bus &bus, const SpanData &data)
     const auto &reply = result->replies.front();
     if (!reply && reply.error().kind == ErrorKind::Refused)
         return tl::unexpected(reply.error());
-    return bus.settle(2ms, 100ms); // whatever else came of it is looked up, not believed
+    return bus.wait(2ms); // whatever else came of it is looked up, not believed
+}
+
+/// One register is written and the device stands elsewhere, or still where it was.
+Result<Found> changePlace(JobContext &context, const DevicePlace &from, const DevicePlace &to, const SpanData &data,
+                          bool turnTorqueOff)
+{
+    Bus &bus = context.bus();
+    const AtBaud there(bus, from.baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    if (const auto free = checkFree(context, to); !free)
+        return tl::unexpected(free.error());
+    if (const auto free = freeEeprom(bus, from, turnTorqueOff); !free)
+        return tl::unexpected(free.error());
+    if (const auto go = context.checkpoint(); !go)
+        return tl::unexpected(go.error());
+
+    const JobContext::Exclusive exclusive(context);
+    if (const auto sent = writeOnce(bus, data); !sent)
+        return tl::unexpected(sent.error());
+    auto found = lookForMoved(context, from, to);
+    if (found && isAt(*found, from))
+        return failure(ErrorKind::NotConfirmed,
+                       tr("%1 still answers at %2: it did not take the change").arg(from.name, placeText(from)));
+    return found;
+}
+
+/// Where the rate is somebody else's, even the one we were told may not be true: no device is moved away from it.
+Result<void> rateIsOurs(Bus &bus)
+{
+    if (bus.line().canSetBaudRate())
+        return {};
+    return tl::unexpected(messages::deviceRateBound(bus.line().name()));
 }
 
 } // namespace
 
-Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan)
+bool isAt(const Found &found, const DevicePlace &place)
 {
-    Bus &bus = context.bus();
-    const DevicePlace &place = plan.place;
-    const AtBaud there(bus, place.baudRate);
-    if (!there.entered())
-        return tl::unexpected(there.entered().error());
+    return found.id == place.id && found.baudRate == place.baudRate;
+}
 
-    const auto taken = whoIsAt(bus, plan.newId);
-    if (!taken || *taken) {
-        return failure(ErrorKind::InvalidArgument,
-                       tr("ID %1 is taken: something answers there; nothing was written").arg(plan.newId));
+Result<Found> lookForMoved(JobContext &context, const DevicePlace &from, const DevicePlace &to)
+{
+    const bool moves = to.id != from.id || to.baudRate != from.baudRate;
+    for (const DevicePlace &place : moves ? std::vector{to, from} : std::vector{to}) {
+        auto found = look(context, place);
+        if (found ? found->modelNumber == from.modelNumber : endsAll(found.error()))
+            return found;
     }
-    if (const auto free = freeEeprom(bus, place, plan.turnTorqueOff); !free)
-        return tl::unexpected(free.error());
-    if (const auto go = context.checkpoint(); !go)
-        return tl::unexpected(go.error());
-
-    const JobContext::Exclusive exclusive(context);
-    if (const auto sent = writeOnce(bus, {place.id, plan.idAddress, {plan.newId}}); !sent)
-        return tl::unexpected(sent.error());
-    const auto now = whoIsAt(bus, plan.newId);
-    if (isThere(now, place.modelNumber))
-        return **now;
-    if (!now && now.error().kind == ErrorKind::Stopped)
-        return tl::unexpected(now.error());
-    if (isThere(whoIsAt(bus, place.id), place.modelNumber)) {
+    if (!moves) {
         return failure(ErrorKind::NotConfirmed,
-                       tr("%1 still answers at ID %2: it did not take the new ID").arg(place.name).arg(place.id));
+                       tr("%1 does not answer at %2; scan to find it").arg(from.name, placeText(to)));
     }
     return failure(ErrorKind::NotConfirmed,
-                   tr("%1 answers neither at ID %2 nor at ID %3 after the change; scan to find it")
-                       .arg(place.name)
-                       .arg(plan.newId)
-                       .arg(place.id));
+                   tr("%1 answers neither at %2 nor at %3; scan to find it")
+                       .arg(from.name, placeText(to), placeText(from)));
+}
+
+Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan)
+{
+    DevicePlace to = plan.place;
+    to.id = plan.newId;
+    return changePlace(context, plan.place, to, {plan.place.id, plan.idAddress, {plan.newId}}, plan.turnTorqueOff);
 }
 
 Result<Found> changeBaud(JobContext &context, const ChangeBaudPlan &plan)
 {
-    Bus &bus = context.bus();
-    const DevicePlace &place = plan.place;
-    const AtBaud there(bus, place.baudRate);
-    if (!there.entered())
-        return tl::unexpected(there.entered().error());
-    {
-        // Tried, not believed: a device at a rate the port can't do would be lost to it.
-        const AtBaud attempt(bus, plan.newBaudRate);
-        if (!attempt.entered()) {
-            return failure(ErrorKind::PortUnsuitable,
-                           tr("%1; nothing was written").arg(attempt.entered().error().text));
-        }
-        const auto taken = whoIsAt(bus, place.id);
-        if (!taken || *taken) {
-            return failure(ErrorKind::InvalidArgument,
-                           tr("ID %1 is taken at %2 bps: something answers there; nothing was written")
-                               .arg(place.id)
-                               .arg(plan.newBaudRate));
-        }
-    }
-    if (const auto free = freeEeprom(bus, place, plan.turnTorqueOff); !free)
-        return tl::unexpected(free.error());
-    if (const auto go = context.checkpoint(); !go)
-        return tl::unexpected(go.error());
-
-    const JobContext::Exclusive exclusive(context);
-    if (const auto sent = writeOnce(bus, {place.id, plan.baudAddress, {plan.code}}); !sent)
-        return tl::unexpected(sent.error());
-    {
-        const AtBaud moved(bus, plan.newBaudRate);
-        const auto now = whoIsAt(bus, place.id);
-        if (isThere(now, place.modelNumber))
-            return **now;
-        if (!now && now.error().kind == ErrorKind::Stopped)
-            return tl::unexpected(now.error());
-    }
-    if (isThere(whoIsAt(bus, place.id), place.modelNumber)) {
-        return failure(ErrorKind::NotConfirmed, tr("%1 still answers at %2 bps: it did not take the new baud rate")
-                                                    .arg(place.name)
-                                                    .arg(place.baudRate));
-    }
-    return failure(ErrorKind::NotConfirmed,
-                   tr("%1 answers neither at %2 bps nor at %3 bps after the change; scan to find it")
-                       .arg(place.name)
-                       .arg(plan.newBaudRate)
-                       .arg(place.baudRate));
+    if (const auto ours = rateIsOurs(context.bus()); !ours)
+        return tl::unexpected(ours.error());
+    DevicePlace to = plan.place;
+    to.baudRate = plan.newBaudRate;
+    return changePlace(context, plan.place, to, {plan.place.id, plan.baudAddress, {plan.code}}, plan.turnTorqueOff);
 }
 
 Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
 {
     Bus &bus = context.bus();
+    if (const auto ours = rateIsOurs(bus); !ours && plan.option != ResetOption::AllButIdAndBaud)
+        return ours;
     const bool moves = plan.after.id != plan.place.id || plan.after.baudRate != plan.place.baudRate;
     if (moves) {
-        const AtBaud after(bus, plan.after.baudRate);
-        if (!after.entered())
-            return after.entered();
-        const auto taken = whoIsAt(bus, plan.after.id);
-        if (!taken || *taken) {
-            return failure(ErrorKind::InvalidArgument,
-                           tr("ID %1 at %2 bps, where the reset would put it, is taken; nothing was written")
-                               .arg(plan.after.id)
-                               .arg(plan.after.baudRate));
-        }
+        if (const auto free = checkFree(context, plan.after); !free)
+            return free;
     }
     const AtBaud there(bus, plan.place.baudRate);
     if (!there.entered())

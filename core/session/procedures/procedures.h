@@ -32,8 +32,9 @@ struct WriteFieldPlan {
 };
 Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
 
-/// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Accepts a status from the
-/// old or the new ID, then looks for the device at the new one and, failing that, at the old one.
+/// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Writes once, then
+/// looks for the device at the new ID and, failing that, at the old one. STOP may come at any point: then the error is
+/// Stopped, and only lookForMoved() can tell where the device is.
 struct ChangeIdPlan {
     DevicePlace place;
     std::uint8_t newId = 0;
@@ -42,8 +43,7 @@ struct ChangeIdPlan {
 };
 Result<Found> changeId(JobContext &context, const ChangeIdPlan &plan);
 
-/// Manual: "Baud Rate". Tries on the port whether it can do the rate before anything is written; verifies at the new rate,
-/// and says where the device is where that fails.
+/// Manual: "Baud Rate". As changeId(), and tries on the port whether it can do the rate before anything is written.
 struct ChangeBaudPlan {
     DevicePlace place;
     int newBaudRate = 57600;
@@ -71,6 +71,10 @@ Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, c
 
 /// Is it there? At its own baud rate, wherever the line works.
 Result<Found> look(JobContext &context, const DevicePlace &place);
+/// A device of this model at the new place or else at the old one, which may be the same; NotConfirmed where it is at
+/// neither.
+Result<Found> lookForMoved(JobContext &context, const DevicePlace &from, const DevicePlace &to);
+bool isAt(const Found &found, const DevicePlace &place);
 
 /// Runs `operation` at the device's baud rate.
 Result<void> atPlace(JobContext &context, const DevicePlace &place, const std::function<Result<void>(Bus &)> &operation);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/sessionfixture.h"
+#include "tests/support/testmain.h"
+
+using namespace dynascope;
+
+/// Factory Reset as the window asks for it: session, bus thread and simulated servos in virtual time.
+class TestProceduresReset : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void initTestCase()
+    {
+        auto catalog = Catalog::builtIn();
+        QVERIFY2(catalog, catalog ? "" : qPrintable(catalog.error().text));
+        m_catalog = std::move(*catalog);
+    }
+
+    // One that obeys is looked for in tst_session, where time passes while it boots.
+    void oneThatIgnoredItIsFoundAtItsOldPlace()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5"));
+        all.factory.isLost = [](ByteView packet) {
+            return packet[7] == static_cast<std::uint8_t>(Instruction::FactoryReset);
+        };
+        all.open(1000000);
+        Device &device = *all.line->devices().front();
+        std::optional<Result<void>> outcome;
+        all.commands.factoryReset(device, ResetOption::All, [&](const Result<void> &result) { outcome = result; });
+        QVERIFY(VirtualSession::waitFor([&] { return outcome.has_value(); }));
+        QVERIFY(!*outcome);
+        QCOMPARE(outcome->error().text,
+                 QStringLiteral("XM430-W350 #5 still answers at ID 5, 1000000 bps: it did not take the reset"));
+        QCOMPARE(device.id(), 5);
+        QCOMPARE(device.baudRate(), 1000000);
+        QCOMPARE(device.state(), Device::State::Present);
+    }
+
+private:
+    Catalog m_catalog;
+};
+
+DYNASCOPE_CORE_TEST(TestProceduresReset)
+#include "tst_procedures_reset.moc"
