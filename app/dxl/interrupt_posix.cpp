@@ -32,8 +32,14 @@ void Interrupt::wait()
 
 bool Interrupt::came()
 {
-    const timespec atOnce{};
-    m_came = m_came || sigtimedwait(&m_signals->ending, nullptr, &atOnce) > 0;
+    sigset_t pending;
+    sigpending(&pending);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        if (!m_came && sigismember(&pending, signal) == 1) {
+            wait(); // takes it: it must not end the program behind our back
+            m_came = true;
+        }
+    }
     return m_came;
 }
 
