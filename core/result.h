@@ -19,6 +19,7 @@ enum class ErrorKind {
     WrongId,         ///< only other devices answered
     WrongLength,     ///< a valid answer of another length than asked
     LateAnswer,      ///< only an answer that may be an earlier request's
+    NotSent,         ///< nothing went out: the device did not answer the Ping that must come first
     Refused,         ///< the device answered with an error number, Error::number
     // The port
     PortNotFound,

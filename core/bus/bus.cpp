@@ -44,11 +44,12 @@ void Bus::setTraits(const std::vector<Traits> &traits)
 
 Traits Bus::traits(std::uint8_t id) const
 {
-    if (m_known.test(id))
+    const int rate = m_channel.line().baudRate();
+    if (m_known.test(id) && (m_traits[id].baudRate == AnyRate || m_traits[id].baudRate == rate))
         return m_traits[id];
     Traits fresh;
     fresh.id = id;
-    fresh.baudRate = m_channel.line().baudRate();
+    fresh.baudRate = rate;
     return fresh;
 }
 
@@ -88,17 +89,19 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
 {
     if (Result<void> ready = prepare(); !ready)
         return ready;
-    if (m_late.concern(request) && !isMute(request, request.replies.front().id)) {
-        const Result<std::optional<Error>> silence = fence(request.replies.front().id);
-        if (!silence)
-            return tl::unexpected(silence.error());
-        if (*silence) { // whoever doesn't answer a Ping would break the chain, too
+    if (m_late.concern(request) && !isMute(request, request.replies.front().id)
+        && !isSilenced(request)) {
+        const std::uint8_t first = request.replies.front().id;
+        const Result<bool> proven = fence(first);
+        if (!proven)
+            return tl::unexpected(proven.error());
+        if (!*proven) { // whoever doesn't answer a Ping would break the chain, too
             result.seen.reset();
             result.brokenAt = 0;
-            result.replies.assign(request.replies.size(), tl::unexpected(**silence));
+            result.replies.assign(request.replies.size(), tl::unexpected(messages::notSent(first)));
             for (std::size_t i = 1; i < request.replies.size(); ++i)
                 result.replies[i] = tl::unexpected(
-                    messages::chainBroken(request.replies[i].id, request.replies.front().id));
+                    messages::chainBroken(request.replies[i].id, first));
             return {};
         }
         if (Result<void> ready = prepare(); !ready)
@@ -123,18 +126,17 @@ Result<ExchangeResult> Bus::broadcastPing(int highestId, const Collector::Found 
 }
 
 /// Adapters delay, but keep the order: one answered Ping proves that nothing older is in flight. Where an earlier Ping
-/// is itself unanswered, a Read of a length that nobody waits for. Returns why not, where no answer came.
-Result<std::optional<Error>> Bus::fence(std::uint8_t id)
+/// is itself unanswered, a Read of a length that nobody waits for. A refusal proves it as well. False: no answer came.
+Result<bool> Bus::fence(std::uint8_t id)
 {
-    const Request request =
-        m_late.couldBePing(id) ? readRequest({id, 0, m_late.distinctLength(id)}) : pingRequest(id);
+    const std::uint16_t distinct = m_late.couldBePing(id) ? m_late.distinctLength(id) : 0;
+    const Request request = distinct > 0 ? readRequest({id, 0, distinct}) : pingRequest(id);
     Waiting waiting;
     ExchangeResult result;
     if (Result<void> done = perform(request, encode(request.packet), waiting, result); !done)
         return tl::unexpected(done.error());
-    if (result.replies.front())
-        return std::optional<Error>();
-    return std::optional<Error>(result.replies.front().error());
+    const Result<Reply> &reply = result.replies.front();
+    return (reply || reply.error().kind == ErrorKind::Refused) && !m_late.couldBePing(id);
 }
 
 Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &waiting, ExchangeResult &result)
@@ -174,8 +176,13 @@ void Bus::remember(const Request &request, const ExchangeResult &result, LineTim
 {
     const bool anyLost = std::ranges::any_of(result.replies,
         [](const Result<Reply> &reply) { return !reply && reply.error().kind != ErrorKind::Refused; });
-    if (anyLost)
+    if (anyLost && !isSilenced(request))
         m_late.addMissing(request, result, sent);
+    for (std::size_t i = 0; i < result.replies.size() && i < request.replies.size(); ++i) {
+        const bool hidden = result.brokenAt >= 0 && static_cast<int>(i) > result.brokenAt;
+        if (!result.replies[i] && !hidden && result.replies[i].error().kind != ErrorKind::Refused)
+            m_timing.missed(request.replies[i].id);
+    }
     if (request.shape == ReplyShape::Anyone)
         m_late.addPings(sent);
     m_unsettled = m_unsettled || anyLost || result.seen.strayPackets > 0 || result.seen.noiseBytes > 0;
@@ -187,12 +194,14 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
 {
     const LineTime byteTime = m_channel.line().byteTime();
     for (const Collector::Belated &late : m_collector.belated())
-        m_timing.learn(late.id, late.by - traits(late.id).returnDelay);
+        m_timing.learn(late.id, late.by - times(StatusOverhead, byteTime) - traits(late.id).returnDelay);
     if (request.isWrite() || request.shape == ReplyShape::Anyone || result.replies.empty() || !result.replies.front())
         return;
     const Reply &first = *result.replies.front();
     const bool cut = request.shape == ReplyShape::Fast && result.brokenAt >= 0; // nobody knows where it ended
-    if (first.bytes == 0 || cut)
+    // Which of two Pings was answered nobody knows.
+    const bool ambiguous = request.packet.instruction == Instruction::Ping && m_late.couldBePing(first.id);
+    if (first.bytes == 0 || cut || ambiguous)
         return;
     const std::size_t bytes = request.shape == ReplyShape::Fast ? request.maximumReplySize() : first.bytes;
     m_timing.learn(first.id, first.at - times(bytes, byteTime) - sent - traits(first.id).returnDelay);
@@ -214,6 +223,7 @@ Result<void> Bus::prepare()
             m_echoes = true;
         else
             m_unsettled = true;
+        learnBelated(*waiting);
     }
     m_late.forgetOld(m_channel.now());
     if (!m_unsettled)
@@ -225,6 +235,31 @@ Result<void> Bus::prepare()
         return settled;
     m_unsettled = false;
     return {};
+}
+
+/// An adapter may be slower than anybody waits: its answers come while the line idles.
+void Bus::learnBelated(ByteView bytes)
+{
+    if (m_late.isEmpty())
+        return;
+    m_idle.reset();
+    m_idle.feed(bytes);
+    while (const auto event = m_idle.next()) {
+        const auto *packet = std::get_if<Parser::Packet>(&*event);
+        if (!packet || !packet->isStatus())
+            continue;
+        if (const auto origin = m_late.originOf(packet->id, packet->parameters.size()))
+            m_timing.learn(packet->id, m_channel.lastByteAt() - *origin);
+    }
+}
+
+Result<void> Bus::setBaudRate(int bitsPerSecond)
+{
+    const int before = line().baudRate();
+    Result<void> set = m_channel.setBaudRate(bitsPerSecond);
+    if (line().baudRate() != before)
+        m_late.rateChanged();
+    return set;
 }
 
 Result<LineTime> Bus::begin(ByteView packet)
@@ -285,11 +320,13 @@ LineTime Bus::longestWait(const Request &request, const Waiting &waiting) const
 {
     const Line &line = m_channel.line();
     const LineTime longest = times(request.maximumReplySize(), line.byteTime());
-    const LineTime each =
-        timing::silence(line) + timing::processing(request.packet.instruction) + allowance(request) + 1ms;
+    const LineTime each = timing::silence(line) + timing::processing(request.packet.instruction) + 1ms;
+    LineTime hosts = request.replies.empty() ? line.hostAllowance() : LineTime();
+    for (const ExpectedReply &reply : request.replies)
+        hosts += m_timing.allowance(reply.id, line.hostAllowance());
     const LineTime turns =
         request.shape == ReplyShape::Anyone ? (waiting.highestId + 1) * timing::SlotOfBroadcastPing : LineTime();
-    return waiting.origin + 2 * longest + turns + times(std::max<std::size_t>(1, request.replies.size()), each);
+    return waiting.origin + 2 * longest + turns + hosts + times(std::max<std::size_t>(1, request.replies.size()), each);
 }
 
 /// How much later than its registers say the next answer is waited for.
@@ -328,6 +365,12 @@ LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
 bool Bus::isMute(const Request &request, std::uint8_t id) const
 {
     return request.isWrite() && traits(id).statusReturnLevel < 2;
+}
+
+/// Is this a Read of a device that answers none, by its Status Return Level?
+bool Bus::isSilenced(const Request &request) const
+{
+    return request.packet.instruction == Instruction::Read && traits(request.replies.front().id).statusReturnLevel < 1;
 }
 
 /// At a low Status Return Level silence is what was to be expected.

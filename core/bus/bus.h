@@ -60,7 +60,7 @@ public:
     }
 
     /// Drain, set, discard, two byte times. Error: the old rate stays.
-    Result<void> setBaudRate(int bitsPerSecond) { return m_channel.setBaudRate(bitsPerSecond); }
+    Result<void> setBaudRate(int bitsPerSecond);
 
     bool isStopped() const { return m_channel.isStopped(); }
     /// Who has answered within the last seconds, by ID.
@@ -88,7 +88,8 @@ private:
     struct Waiting;
 
     Result<void> prepare();
-    Result<std::optional<Error>> fence(std::uint8_t id);
+    Result<bool> fence(std::uint8_t id);
+    void learnBelated(ByteView bytes);
     Result<void> perform(const Request &request, ByteView packet, Waiting &waiting, ExchangeResult &result);
     Result<void> listen(const Request &request, Waiting &waiting);
     Result<LineTime> begin(ByteView packet);
@@ -98,12 +99,14 @@ private:
     bool isMute(const Request &request, std::uint8_t id) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);
+    bool isSilenced(const Request &request) const;
     void explainSilence(const Request &request, ExchangeResult &result) const;
 
     Channel m_channel;
     LateAnswers m_late;
     Collector m_collector{m_late};
     LearnedTiming m_timing;
+    Parser m_idle; ///< takes apart what comes while nobody waits
     QualityLog m_quality;
     std::array<Traits, 256> m_traits; ///< by ID, where m_known says so
     std::bitset<256> m_known;

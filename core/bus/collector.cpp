@@ -10,7 +10,6 @@
 namespace dynascope {
 namespace {
 
-constexpr std::size_t PingReplyLength = 3;
 constexpr std::size_t IdAt = 4;
 
 } // namespace
@@ -18,6 +17,7 @@ constexpr std::size_t IdAt = 4;
 void Collector::begin(const Request &request, ByteView sent, Found found)
 {
     m_request = &request;
+    m_earlier[m_turn++ % m_earlier.size()].assign(sent.begin(), sent.end());
     m_sent = sent;
     m_found = std::move(found);
     m_parser.reset();
@@ -29,6 +29,7 @@ void Collector::begin(const Request &request, ByteView sent, Found found)
         m_slots[i].state = Slot::State::Open;
     }
     m_seen.reset();
+    m_foreign.reset();
     m_cutOff.reset();
     m_lastPacketAt.reset();
     m_turnAt.reset();
@@ -78,8 +79,10 @@ void Collector::take(const Parser::Packet &packet, LineTime at)
     if (!packet.isStatus()) { // never an answer; our own packet where the adapter returns what was sent
         if (std::ranges::equal(packet.raw, m_sent) && !m_seen.echo)
             m_seen.echo = true;
+        else if (std::ranges::any_of(m_earlier, [&](const Bytes &own) { return std::ranges::equal(packet.raw, own); }))
+            stray(packet, at); // the echo of one of ours, late
         else
-            stray(packet, at);
+            takeForeign(packet, at);
     } else if (packet.isFastStatus()) {
         takeFast(packet, at);
     } else if (m_request->shape == ReplyShape::Anyone) {
@@ -87,6 +90,16 @@ void Collector::take(const Parser::Packet &packet, LineTime at)
     } else {
         takeStatus(packet, at);
     }
+}
+
+/// Another controller speaks on this wire: who it asks may answer it, not us.
+void Collector::takeForeign(const Parser::Packet &packet, LineTime at)
+{
+    if (packet.id == BroadcastId)
+        m_foreign.set();
+    else
+        m_foreign.set(packet.id);
+    stray(packet, at);
 }
 
 void Collector::takeFast(const Parser::Packet &packet, LineTime at)
@@ -163,9 +176,14 @@ bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at
 {
     const bool isError = (status.errorField & ~AlertBit) != 0;
     const std::size_t length = status.parameters.size();
+    if (m_foreign.test(status.id)) {
+        if (slot.state == Slot::State::Open)
+            slot.state = Slot::State::Doubtful;
+        return true;
+    }
     if (!m_late.couldBe(status.id, length, isError)) {
         if (isError || length == slot.expected.length)
-            m_late.clear();
+            m_late.clear(status.id, at);
         return false;
     }
     if (m_request->packet.instruction == Instruction::Ping && !isError && length == slot.expected.length
@@ -236,7 +254,7 @@ void Collector::salvageBlocks(ByteView raw, LineTime at)
         || raw[HeaderSize] != static_cast<std::uint8_t>(Instruction::Status))
         return;
     const std::size_t announced = HeaderSize + littleEndian(raw.subspan(HeaderSize - 2), 2);
-    const bool doubtful = m_late.couldBeFast(announced);
+    const bool doubtful = m_late.couldBeFast(announced) || m_foreign.any();
     std::size_t begin = BlocksAt;
     for (std::size_t i = 0; i < m_slotCount; ++i) {
         Slot &slot = m_slots[i];
@@ -253,7 +271,7 @@ void Collector::salvageBlocks(ByteView raw, LineTime at)
             ++m_seen.lateAnswers;
             continue;
         }
-        m_late.clear();
+        m_late.clear(BroadcastId, at);
         accept(slot, raw[dataAt - 2], raw.subspan(dataAt, slot.expected.length), at, begin - dataAt + 2);
         pass(slot, Slot::State::Answered, at);
     }

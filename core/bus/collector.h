@@ -4,6 +4,8 @@
 #include "core/bus/lateanswers.h"
 #include "core/protocol/parser.h"
 
+#include <array>
+#include <bitset>
 #include <functional>
 #include <optional>
 
@@ -70,6 +72,7 @@ private:
 
     void drain(LineTime at);
     void take(const Parser::Packet &packet, LineTime at);
+    void takeForeign(const Parser::Packet &packet, LineTime at);
     void takeStatus(const Parser::Packet &status, LineTime at);
     void takeAnyone(const Parser::Packet &status, LineTime at);
     void takeFast(const Parser::Packet &packet, LineTime at);
@@ -96,6 +99,9 @@ private:
     std::optional<Parser::Pending> m_cutOff;
     std::optional<LineTime> m_lastPacketAt, m_turnAt;
     std::vector<Belated> m_belated;
+    std::array<Bytes, 4> m_earlier; ///< what was sent last, this one included
+    std::size_t m_turn = 0;
+    std::bitset<256> m_foreign; ///< devices that another controller has asked meanwhile
     std::size_t m_answers = 0;
     bool m_echoExpected = false;
 };

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/lateanswers.h"
 
+#include "core/bus/timing.h"
+
 #include <algorithm>
 
 namespace dynascope {
 namespace {
 
-constexpr std::size_t PingLength = 3;
+constexpr std::size_t PingLength = PingReplyLength;
 
 } // namespace
 
@@ -18,12 +20,30 @@ void LateAnswers::add(const Entry &entry)
     if (same == m_entries.end())
         m_entries.push_back(entry);
     else
-        same->origin = entry.origin;
+        *same = entry;
 }
 
-LateAnswers::Entry::Kind LateAnswers::kindOf(const Request &request)
+LateAnswers::Entry LateAnswers::entryFor(const Request &request, const ExpectedReply &reply, LineTime origin)
 {
-    return request.packet.instruction == Instruction::Ping ? Entry::Kind::Ping : Entry::Kind::Plain;
+    const bool isPing = request.packet.instruction == Instruction::Ping;
+    const LineTime held = request.isWrite() ? timing::processing(request.packet.instruction) : LineTime();
+    return {reply.id, reply.length, isPing ? Entry::Kind::Ping : Entry::Kind::Plain, origin, origin + held};
+}
+
+void LateAnswers::clear(std::uint8_t id, LineTime now)
+{
+    std::erase_if(m_entries, [&](const Entry &entry) { return entry.id == id || entry.heldUntil <= now; });
+}
+
+void LateAnswers::rateChanged()
+{
+    std::erase_if(m_entries, [](const Entry &entry) {
+        return entry.id == BroadcastId && entry.kind == Entry::Kind::Ping; // was waited for to the end
+    });
+    for (Entry &entry : m_entries) {
+        if (entry.kind == Entry::Kind::Ping)
+            entry.kind = Entry::Kind::Plain;
+    }
 }
 
 void LateAnswers::forgetOld(LineTime now)
@@ -38,7 +58,7 @@ void LateAnswers::addMissing(const Request &request, const ExchangeResult &resul
     };
     if (request.shape == ReplyShape::Fast) {
         if (std::ranges::any_of(result.replies, isMissing))
-            add({BroadcastId, request.maximumReplySize(), Entry::Kind::Fast, origin});
+            add({BroadcastId, request.maximumReplySize(), Entry::Kind::Fast, origin, origin});
         return;
     }
     // Those before the last one heard won't come any more: the answers of one request keep their order, too.
@@ -46,12 +66,12 @@ void LateAnswers::addMissing(const Request &request, const ExchangeResult &resul
     while (open > 0 && isMissing(result.replies[open - 1]))
         --open;
     for (std::size_t i = open; i < request.replies.size() && i < result.replies.size(); ++i)
-        add({request.replies[i].id, request.replies[i].length, kindOf(request), origin});
+        add(entryFor(request, request.replies[i], origin));
 }
 
 void LateAnswers::addPings(LineTime origin)
 {
-    add({BroadcastId, PingLength, Entry::Kind::Ping, origin});
+    add({BroadcastId, PingLength, Entry::Kind::Ping, origin, origin});
 }
 
 void LateAnswers::addAll(const Request &request, LineTime origin)
@@ -59,10 +79,10 @@ void LateAnswers::addAll(const Request &request, LineTime origin)
     if (request.shape == ReplyShape::Anyone)
         addPings(origin);
     else if (request.shape == ReplyShape::Fast)
-        add({BroadcastId, request.maximumReplySize(), Entry::Kind::Fast, origin});
+        add({BroadcastId, request.maximumReplySize(), Entry::Kind::Fast, origin, origin});
     else
         for (const ExpectedReply &reply : request.replies)
-            add({reply.id, reply.length, kindOf(request), origin});
+            add(entryFor(request, reply, origin));
 }
 
 bool LateAnswers::couldBe(std::uint8_t id, std::size_t length, bool isError) const
@@ -106,10 +126,12 @@ bool LateAnswers::concern(const Request &request) const
 
 std::uint16_t LateAnswers::distinctLength(std::uint8_t id) const
 {
-    std::uint16_t length = 2; // the model number; every table has some tens of bytes behind it
-    while (length == PingLength || couldBe(id, length, false))
-        ++length;
-    return length;
+    constexpr std::uint16_t Largest = 140; // nearly every table is longer; where it isn't, the refusal is no answer
+    for (std::uint16_t length = 2; length <= Largest; ++length) {
+        if (length != PingLength && !couldBe(id, length, false))
+            return length;
+    }
+    return 0;
 }
 
 std::optional<LineTime> LateAnswers::originOf(std::uint8_t id, std::size_t length) const

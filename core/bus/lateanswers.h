@@ -14,8 +14,11 @@ class LateAnswers
 {
 public:
     bool isEmpty() const { return m_entries.empty(); }
-    /// Something that can be no late answer came: nothing older than its request will.
-    void clear() { m_entries.clear(); }
+    /// An answer of `id` came that can be none of them: nothing older than its request will. But another device that is
+    /// itself slow with what it was told may answer that yet.
+    void clear(std::uint8_t id, LineTime now);
+    /// The line works at another rate. An answer to a Ping at the old one says nothing of who is there at the new one.
+    void rateChanged();
 
     /// No adapter and no network holds an answer back for longer than this: what was not heard by then was lost.
     static constexpr LineTime Longest = std::chrono::seconds(10);
@@ -36,7 +39,8 @@ public:
     bool couldBeFast(std::size_t packetSize) const;
     /// May the first answer to `request` be mistaken?
     bool concern(const Request &request) const;
-    /// A number of bytes that no late answer of this device has: what a Read of as many brings is its own answer.
+    /// A number of bytes that no late answer of this device has: what a Read of as many brings is its own answer. 0: all
+    /// that a table surely has are taken.
     std::uint16_t distinctLength(std::uint8_t id) const;
     /// From when on a status packet like this one could be awaited.
     std::optional<LineTime> originOf(std::uint8_t id, std::size_t length) const;
@@ -47,9 +51,10 @@ private:
         std::size_t length = 0; ///< data bytes; of a fast reply the whole packet's
         enum class Kind { Plain, Ping, Fast } kind = Kind::Plain;
         LineTime origin{};
+        LineTime heldUntil{}; ///< so long the device may take
     };
     void add(const Entry &entry);
-    static Entry::Kind kindOf(const Request &request);
+    static Entry entryFor(const Request &request, const ExpectedReply &reply, LineTime origin);
 
     std::vector<Entry> m_entries; ///< no two alike: as many as there are kinds of requests
 };

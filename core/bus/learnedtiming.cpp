@@ -11,6 +11,8 @@ namespace {
 
 constexpr int EnoughOfDevice = 8;
 constexpr int EnoughOfLine = 32;
+constexpr int OftenMissed = 3;
+constexpr LineTime Step = 10ms; ///< by which one answer can be later than all before it
 /// What the scheduling of a desktop adds now and then, reference "Time". A line without any delay of its own has none.
 constexpr LineTime Jitter = 2ms;
 
@@ -30,9 +32,13 @@ void LearnedTiming::Estimate::add(LineTime sample)
 
 void LearnedTiming::learn(std::uint8_t id, LineTime lateness)
 {
-    const LineTime sample = std::clamp(lateness, -Longest, Longest);
-    m_line.add(sample);
-    m_devices[id].add(sample);
+    m_misses[id] = 0;
+    const auto within = [lateness](const Estimate &estimate) {
+        const LineTime longest = estimate.samples > 0 ? std::min(estimate.longest() + Step, Longest) : Longest;
+        return std::clamp(lateness, -Longest, longest);
+    };
+    m_line.add(within(m_line));
+    m_devices[id].add(within(m_devices[id]));
 }
 
 LineTime LearnedTiming::allowance(std::uint8_t id, LineTime allowance) const
@@ -43,7 +49,8 @@ LineTime LearnedTiming::allowance(std::uint8_t id, LineTime allowance) const
         return allowance;
     const Estimate &known = knowsDevice ? device : m_line;
     const LineTime margin = std::min(allowance, Jitter);
-    return std::clamp(known.mean + 4 * known.deviation + margin, margin, std::max(allowance, Longest));
+    const LineTime learned = std::clamp(known.longest() + margin, margin, std::max(allowance, Longest));
+    return m_misses[id] < OftenMissed ? learned : std::max(learned, allowance);
 }
 
 } // namespace dynascope

@@ -4,7 +4,6 @@
 #include "core/bus/line.h"
 
 #include <array>
-#include <memory>
 
 namespace dynascope {
 
@@ -17,8 +16,12 @@ public:
     /// Later than this nothing is waited for, whatever was seen.
     static constexpr LineTime Longest = std::chrono::milliseconds(100);
 
-    /// An answer of `id` began `lateness` after it could have at the earliest by its Return Delay Time.
+    /// An answer of `id` began `lateness` after it could have at the earliest by its Return Delay Time. An outlier counts
+    /// as a step only: the next one alike another.
     void learn(std::uint8_t id, LineTime lateness);
+    /// No answer of `id` came. Missed often in a row, a device gets the line's own time again: perhaps the adapter has
+    /// become slow.
+    void missed(std::uint8_t id) { ++m_misses[id]; }
 
     /// How much later than its registers say an answer of `id` is to be waited for. `allowance` is what the line itself
     /// asks for, and what holds until enough has been seen.
@@ -28,12 +31,14 @@ private:
     struct Estimate {
         LineTime mean{}, deviation{};
         int samples = 0;
+        LineTime longest() const { return mean + 4 * deviation; }
         void add(LineTime sample);
     };
     static constexpr std::size_t Ids = 256;
 
     Estimate m_line;
     std::array<Estimate, Ids> m_devices{};
+    std::array<int, Ids> m_misses{}; ///< in a row
 };
 
 } // namespace dynascope

@@ -134,6 +134,12 @@ Error chainBroken(std::uint8_t id, std::uint8_t culprit)
             .arg(device(id), device(culprit))};
 }
 
+Error notSent(std::uint8_t id)
+{
+    return {ErrorKind::NotSent,
+        Messages::tr("%1 was not asked: it missed an answer before, and does not answer a Ping").arg(device(id))};
+}
+
 Error asleep(std::uint8_t id)
 {
     return {ErrorKind::NothingReceived, Messages::tr("%1 does not answer").arg(device(id))};

@@ -16,6 +16,7 @@ Error damagedCrc(std::uint8_t id);
 Error wrongId(std::uint8_t id, const std::vector<std::uint8_t> &others);
 Error wrongLength(std::uint8_t id, std::size_t have, std::size_t want);
 Error onlyLate(std::uint8_t id);
+Error notSent(std::uint8_t id); ///< an answer to something earlier may still come, and no Ping proved that it won't
 /// What was seen of one device, and who else on the line is alive.
 Error withOthers(Error error, const std::vector<std::uint8_t> &others);
 QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found

@@ -8,10 +8,7 @@ namespace dynascope {
 
 using namespace std::chrono_literals;
 
-namespace {
-
-/// Sent, but whether it arrived isn't known.
-bool isLost(const Error &error)
+bool mayHaveArrived(const Error &error)
 {
     switch (error.kind) {
     case ErrorKind::NothingReceived:
@@ -25,6 +22,8 @@ bool isLost(const Error &error)
     }
 }
 
+namespace {
+
 Result<Reply> single(Bus &bus, const Request &request, int retries = 2)
 {
     Result<ExchangeResult> result = bus.exchange(request, retries);
@@ -33,7 +32,7 @@ Result<Reply> single(Bus &bus, const Request &request, int retries = 2)
     if (result->replies.empty()) // a broadcast: nobody answers
         return Reply{request.packet.id, DeviceError::None, false, {}, bus.line().now()};
     Result<Reply> &reply = result->replies.front();
-    if (!reply && isLost(reply.error())) {
+    if (!reply && (mayHaveArrived(reply.error()) || reply.error().kind == ErrorKind::NotSent)) {
         std::vector<std::uint8_t> others = bus.alive();
         std::erase(others, request.packet.id);
         return tl::unexpected(messages::withOthers(std::move(reply.error()), others));
@@ -141,7 +140,7 @@ Result<void> writeMany(Bus &bus, std::span<const SpanData> writes)
 Result<Bytes> writeVerified(Bus &bus, const SpanData &data)
 {
     const Result<void> written = write(bus, data);
-    if (!written && !isLost(written.error()))
+    if (!written && !mayHaveArrived(written.error()))
         return tl::unexpected(written.error());
     constexpr int Looks = 5;
     const auto length = static_cast<std::uint16_t>(data.data.size());

@@ -7,6 +7,9 @@
 /// what was seen.
 namespace dynascope {
 
+/// Was it sent, and is not known whether it arrived? Nothing was heard that says so.
+bool mayHaveArrived(const Error &error);
+
 struct PingReply {
     std::uint8_t id = 0;
     std::uint16_t modelNumber = 0;

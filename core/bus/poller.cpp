@@ -16,12 +16,13 @@ constexpr int Failures = 2;          ///< as often, and it doesn't know this kin
 constexpr int Passes = 4;            ///< of one cycle, while a broken chain hides devices
 constexpr std::size_t Cycles = 16;   ///< kept ready: spans of a few intervals make as many kinds of cycles
 constexpr LineTime FirstBackOff = 100ms;
-constexpr LineTime LongestBackOff = 2s;
+constexpr LineTime LongestBackOff = 3s;
+constexpr LineTime Remembered = 1min; ///< that a device doesn't know a kind of read: it may have been the line
 
 bool isSilence(const Error &error)
 {
     return error.kind == ErrorKind::NothingReceived || error.kind == ErrorKind::NoHeader
-        || error.kind == ErrorKind::CutOff || error.kind == ErrorKind::WrongId;
+        || error.kind == ErrorKind::NotSent || error.kind == ErrorKind::CutOff || error.kind == ErrorKind::WrongId;
 }
 
 bool isGroup(const Request &request)
@@ -83,6 +84,8 @@ Result<void> Poller::runCycle(Batch &batch)
     batch.fullRate = false;
     m_fastMissed.reset();
     m_groupMissed.reset();
+    if (batch.begin >= m_forgetAt)
+        forgetRefusals();
     if (Result<void> collected = collectDue(batch); !collected)
         return collected;
     for (int pass = 1; pass <= Passes && !m_open.empty(); ++pass) {
@@ -99,21 +102,19 @@ Result<void> Poller::runCycle(Batch &batch)
 Result<void> Poller::collectDue(Batch &batch)
 {
     const LineTime now = m_bus.line().now();
-    std::bitset<256> probed;
+    int probed = -1;
     m_dueNow.clear();
     m_open.clear();
     for (std::size_t i = 0; i < m_plan.spans.size(); ++i) {
         const std::uint8_t id = m_plan.spans[i].span.id;
         if (m_due[i] > now)
             continue;
-        if (isSleeping(id)) {
-            if (m_devices[id].probeAt > now && !probed.test(id))
+        if (isSleeping(id) && probed != id) { // one a cycle: the others shall not wait for many
+            if (m_devices[id].probeAt > now || probed >= 0)
                 continue;
-            if (!probed.test(id)) {
-                probed.set(id);
-                if (Result<void> asked = probe(id); !asked)
-                    return asked;
-            }
+            probed = id;
+            if (Result<void> asked = probe(id); !asked)
+                return asked;
         }
         m_dueNow.push_back(i);
         batch.fullRate = batch.fullRate || m_plan.spans[i].interval == 0ms;
@@ -134,9 +135,9 @@ Result<void> Poller::collectDue(Batch &batch)
         if (isSleeping(span.span.id))
             value.error = messages::asleep(span.span.id);
     }
-    const auto isSilent = [this](std::size_t i) { return m_devices[m_plan.spans[i].span.id].silent > 0; };
-    if (std::ranges::any_of(m_open, isSilent))
-        std::ranges::stable_sort(m_open, {}, [this](std::size_t i) { return stateOf(i).silent; });
+    const auto trouble = [this](std::size_t i) { return stateOf(i).silent + stateOf(i).broken; };
+    if (std::ranges::any_of(m_open, [&](std::size_t i) { return trouble(i) > 0; }))
+        std::ranges::stable_sort(m_open, {}, trouble);
     return {};
 }
 
@@ -250,13 +251,17 @@ void Poller::takeFailure(const Step &step, std::size_t place, int pass)
             m_again.push_back(span);
         return;
     }
-    if (!isSilence(m_result.replies[place].error()))
+    const ErrorKind kind = m_result.replies[place].error().kind;
+    if (!isSilence(m_result.replies[place].error())) {
+        if (static_cast<int>(place) == m_result.brokenAt) // heard so badly that the others didn't: last next time
+            m_devices[id].broken = 1;
         return;
+    }
     const bool fast = step.request.shape == ReplyShape::Fast;
     const DeviceState &state = m_devices[id];
     std::bitset<256> &missedNow = fast ? m_fastMissed : m_groupMissed;
     const bool proven = fast ? state.fastProven : state.groupProven;
-    if (isGroup(step.request) && !proven && !lastPass && !missedNow.test(id)) {
+    if (isGroup(step.request) && kind != ErrorKind::NotSent && !proven && !lastPass && !missedNow.test(id)) {
         missedNow.set(id);
         m_last.push_back(span);
     } else {
@@ -268,6 +273,7 @@ void Poller::answered(std::uint8_t id, const Step &step)
 {
     DeviceState &state = m_devices[id];
     state.silent = 0;
+    state.broken = 0;
     state.backOff = {};
     state.fastProven = state.fastProven || step.request.shape == ReplyShape::Fast;
     state.groupProven = state.groupProven || isGroup(step.request);
@@ -279,8 +285,18 @@ void Poller::answered(std::uint8_t id, const Step &step)
 
 void Poller::learnRefusal(int &failures)
 {
-    if (++failures == Failures)
-        ++m_learned;
+    if (++failures < Failures)
+        return;
+    ++m_learned;
+    m_forgetAt = std::min(m_forgetAt, m_bus.line().now() + Remembered);
+}
+
+void Poller::forgetRefusals()
+{
+    for (DeviceState &state : m_devices)
+        state.fastFailures = state.groupFailures = 0;
+    m_prepared.clear();
+    m_forgetAt = LineTime::max();
 }
 
 void Poller::missed(std::uint8_t id)

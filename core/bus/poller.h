@@ -32,6 +32,7 @@ private:
 
     struct DeviceState {
         int silent = 0;          ///< cycles without an answer in a row
+        int broken = 0;          ///< answered last so badly that the chain broke
         LineTime probeAt{};      ///< while silent: when to ask again
         LineTime backOff{};      ///< until the probe after that
         bool fastProven = false;  ///< has answered a fast read
@@ -61,6 +62,7 @@ private:
     void takeFailure(const Step &step, std::size_t place, int pass);
     void answered(std::uint8_t id, const Step &step);
     void learnRefusal(int &failures);
+    void forgetRefusals();
     void missed(std::uint8_t id);
     void schedule();
     std::vector<Traits> currentTraits() const;
@@ -72,6 +74,7 @@ private:
     std::array<DeviceState, 256> m_devices;      ///< by ID
     std::vector<Prepared> m_prepared;            ///< of cycles as they were before
     quint64 m_cycle = 0;
+    LineTime m_forgetAt = LineTime::max(); ///< when to try again what was refused
     quint64 m_learned = 0; ///< how often a device turned out not to know a kind of read
 
     // Of the cycle that runs.

@@ -49,17 +49,28 @@ Remainder remainderOf(const Request &request, const ExchangeResult &result)
     return rest;
 }
 
+namespace {
+
+/// Does such a failure say less than what was seen before it?
+bool isLess(ErrorKind kind)
+{
+    return kind == ErrorKind::LateAnswer || kind == ErrorKind::NotSent;
+}
+
+} // namespace
+
 void merge(ExchangeResult &total, ExchangeResult again, const std::vector<std::size_t> &indices)
 {
     total.brokenAt = again.brokenAt < 0 ? -1 : static_cast<int>(indices[static_cast<std::size_t>(again.brokenAt)]);
     for (std::size_t i = 0; i < indices.size() && i < again.replies.size(); ++i) {
-        const bool saysLess = !again.replies[i] && again.replies[i].error().kind == ErrorKind::LateAnswer;
+        const bool saysLess = !again.replies[i] && isLess(again.replies[i].error().kind);
         if (!saysLess) // than what was seen at first
             total.replies[indices[i]] = std::move(again.replies[i]);
     }
     total.seen.bytesReceived += again.seen.bytesReceived;
     total.seen.noiseBytes += again.seen.noiseBytes;
     total.seen.damagedPackets += again.seen.damagedPackets;
+    total.seen.damagedIds.insert(total.seen.damagedIds.end(), again.seen.damagedIds.begin(), again.seen.damagedIds.end());
     total.seen.strayPackets += again.seen.strayPackets;
     total.seen.lateAnswers += again.seen.lateAnswers;
     total.seen.strayIds.insert(total.seen.strayIds.end(), again.seen.strayIds.begin(), again.seen.strayIds.end());

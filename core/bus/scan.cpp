@@ -39,7 +39,8 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
     const quint64 before = bus.statistics().bytesReceived;
     if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
         return tl::unexpected(listened.error());
-    const bool more = bus.statistics().bytesReceived != before || answer->seen.strayPackets > 0;
+    const bool more = bus.statistics().bytesReceived != before 
+        || std::ranges::count(answer->seen.strayIds, found.id) > 0;
     const Result<Reply> &reply = answer->replies.front();
     if (!reply && answer->seen.bytesReceived > 0)
         return sharedId(found.id) + QStringLiteral(": its answers come damaged");
@@ -78,6 +79,7 @@ Result<bool> confirmAll(Bus &bus, const std::vector<Found> &devices)
 std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Found> &known, int firstId, int lastId)
 {
     std::set<std::uint8_t> ids(seen.damagedIds.begin(), seen.damagedIds.end());
+    ids.insert(seen.strayIds.begin(), seen.strayIds.end()); // one whose answer might have been a late one
     if (seen.damagedPackets > 0 || seen.noiseBytes > 0) {
         for (int id = firstId; id <= std::min(lastId, LikelyIds); ++id)
             ids.insert(static_cast<std::uint8_t>(id));
@@ -89,8 +91,8 @@ std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Foun
     return ids;
 }
 
-/// Looks for devices one ID at a time.
-Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, BaudScan &scan,
+/// Looks for devices one ID at a time. Noise is nobody's; `unread` counts it.
+Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, BaudScan &scan, std::size_t &unread,
     const std::function<void(const Found &)> &found)
 {
     for (const std::uint8_t id : ids) {
@@ -99,14 +101,17 @@ Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, B
             return tl::unexpected(answer.error());
         const Result<Reply> &reply = answer->replies.front();
         const Observations &seen = answer->seen;
-        if (!reply && seen.damagedPackets == 0 && seen.noiseBytes == 0)
-            continue; // nobody, or only the adapter's echo
+        const bool damaged = std::ranges::count(seen.damagedIds, id) > 0;
+        if (!reply && !damaged) {
+            unread += seen.noiseBytes + (seen.damagedPackets > 0 ? 1 : 0);
+            continue;
+        }
         Found device;
         if (reply)
             device = foundFrom(*reply, bus.line().baudRate());
         device.id = id;
         device.baudRate = bus.line().baudRate();
-        if (!reply || seen.damagedPackets > 0)
+        if (!reply || damaged)
             device.doubt = sharedId(id) + QStringLiteral(": their answers collide");
         scan.devices.push_back(device);
         if (found)
@@ -121,8 +126,11 @@ Result<BaudScan> sweep(Bus &bus, const ScanRequest &wanted, const std::function<
     for (int id = wanted.firstId; id <= std::min<int>(wanted.lastId, MaximumId); ++id)
         ids.insert(static_cast<std::uint8_t>(id));
     BaudScan scan;
-    if (Result<void> asked = askEach(bus, ids, 0, scan, found); !asked)
+    std::size_t unread = 0;
+    if (Result<void> asked = askEach(bus, ids, 0, scan, unread, found); !asked)
         return tl::unexpected(asked.error());
+    if (unread > 0)
+        scan.unreadable = messages::unreadable(unread);
     return scan;
 }
 
@@ -168,11 +176,12 @@ Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const std::functi
     }
     const std::size_t known = scan.devices.size();
     const std::set<std::uint8_t> ids = suspects(seen, scan.devices, wanted.firstId, wanted.lastId);
-    if (Result<void> probed = askEach(bus, ids, 1, scan, found); !probed)
+    std::size_t unread = seen.noiseBytes;
+    if (Result<void> probed = askEach(bus, ids, 1, scan, unread, found); !probed)
         return tl::unexpected(probed.error());
     const bool doubtful = std::ranges::any_of(scan.devices, [](const Found &one) { return !one.doubt.isEmpty(); });
-    if (scan.devices.size() == known && !doubtful && (seen.noiseBytes > 0 || seen.damagedPackets > 0))
-        scan.unreadable = messages::unreadable(seen.bytesReceived);
+    if (scan.devices.size() == known && !doubtful && (unread > 0 || seen.damagedPackets > 0))
+        scan.unreadable = messages::unreadable(std::max(unread, seen.bytesReceived));
     std::ranges::sort(scan.devices, {}, &Found::id);
     return scan;
 }

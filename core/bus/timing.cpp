@@ -34,7 +34,7 @@ std::size_t largestStatus(std::size_t parameters)
 std::size_t largestPacket(const Request &request, std::size_t sentBytes)
 {
     constexpr std::size_t ForAnotherLength = 64;
-    std::size_t largest = largestStatus(3);
+    std::size_t largest = largestStatus(PingReplyLength);
     if (request.shape == ReplyShape::Fast)
         largest = request.maximumReplySize();
     else

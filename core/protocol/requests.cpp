@@ -7,7 +7,6 @@
 namespace dynascope {
 namespace {
 
-constexpr std::uint16_t PingReplyLength = 3; // model number, firmware version
 constexpr std::array<std::uint8_t, 4> ClearPositionKey{0x44, 0x58, 0x4C, 0x22};
 constexpr std::array<std::uint8_t, 4> ClearErrorKey{0x45, 0x52, 0x43, 0x4C};
 constexpr std::array<std::uint8_t, 4> BackupKey{0x43, 0x54, 0x52, 0x4C};

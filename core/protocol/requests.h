@@ -42,6 +42,8 @@ struct ExpectedReply {
     friend bool operator==(const ExpectedReply &, const ExpectedReply &) = default;
 };
 
+constexpr std::uint16_t PingReplyLength = 3; ///< model number, firmware version
+
 /// An instruction with what may answer it. Manual: "Instruction details".
 struct Request {
     InstructionPacket packet;

@@ -55,8 +55,8 @@ void Commands::reboot(Device &device, Done done)
     const DevicePlace place = placeOf(device);
     auto report = reporting(device, tr("%1 has rebooted; its RAM is back to defaults").arg(place.name), std::move(done));
     auto sent = [this, key = device.key(), place, report](const Result<void> &result) {
-        // The status of Reboot may be missing: only a refusal or a lost port ends it here.
-        if (!result && result.error().kind != ErrorKind::NothingReceived && result.error().kind != ErrorKind::CutOff)
+        // The status of Reboot may be missing or cut off by it.
+        if (!result && !mayHaveArrived(result.error()))
             return report(result);
         if (Device *present = m_session.device(key))
             present->setState(Device::State::Rebooting);

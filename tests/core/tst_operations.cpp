@@ -330,6 +330,43 @@ private slots:
         QVERIFY2(found->unreadable.contains(QStringLiteral("6 bytes came")), qPrintable(found->unreadable));
     }
 
+    void noiseIsNobody_data()
+    {
+        QTest::addColumn<bool>("sweep");
+        QTest::newRow("broadcast") << false;
+        QTest::newRow("sweep") << true;
+    }
+
+    void noiseIsNobody()
+    {
+        QFETCH(bool, sweep);
+        FakeLine line;
+        for (int i = 0; i < 4000; ++i)
+            line.babble(i * 500us, {static_cast<std::uint8_t>(i * 7)});
+        Bus bus(line);
+        const auto found = scanBaud(bus, {0, 40, sweep}, {});
+        QVERIFY(found && found->devices.empty());
+        QVERIFY(!found->unreadable.isEmpty());
+    }
+
+    // A Read of three bytes is still unanswered: an answer to the broadcast Ping might be its own.
+    void aScanLosesNobodyOverALateAnswer()
+    {
+        FakeLine line;
+        line.silence();
+        Bus bus(line);
+        QVERIFY(!read(bus, {1, 144, 3}));
+        line.handler = [](const Bytes &request) -> FakeLine::Answer {
+            if (request[7] == 2)
+                return {{500us, oracle::status(1, 0, Bytes(request[10], 7))}};
+            return {{500us, oracle::status(1, 0, {6, 4, 38})}};
+        };
+        const auto found = scanBaud(bus, {0, 252}, {});
+        QVERIFY(found);
+        QCOMPARE(found->devices.size(), std::size_t(1));
+        QCOMPARE(found->devices.front().modelNumber, std::uint16_t(1030));
+    }
+
     void anEchoIsNobody_data()
     {
         QTest::addColumn<bool>("sweep");

@@ -77,7 +77,7 @@ Result<void> writeOnce(Bus &bus, const SpanData &data)
     if (!result)
         return tl::unexpected(result.error());
     const auto &reply = result->replies.front();
-    if (!reply && reply.error().kind == ErrorKind::Refused)
+    if (!reply && !mayHaveArrived(reply.error()))
         return tl::unexpected(reply.error());
     return bus.wait(2ms); // whatever else came of it is looked up, not believed
 }
@@ -171,11 +171,7 @@ Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
     const JobContext::Exclusive exclusive(context);
     const auto sent = factoryReset(bus, plan.place.id, plan.option);
     // Its status may be lost in the reboot that follows; the look afterwards decides.
-    const auto lost = [](ErrorKind kind) {
-        return kind == ErrorKind::NothingReceived || kind == ErrorKind::CutOff || kind == ErrorKind::NoHeader
-            || kind == ErrorKind::DamagedCrc;
-    };
-    if (!sent && !lost(sent.error().kind))
+    if (!sent && !mayHaveArrived(sent.error()))
         return sent;
     if (!sent && !moves) {
         return failure(ErrorKind::NotConfirmed,
