@@ -141,6 +141,7 @@ void MainWindow::connectConnection()
     connect(m_welcome, &WelcomePage::connectRequested, this, connectHere);
     connect(m_menus, &Menus::choosePortRequested, m_bar, &ConnectionBar::choosePort);
     connect(m_menus, &Menus::toggleConnectionRequested, m_bar, &ConnectionBar::toggleConnection);
+    connect(m_menus, &Menus::disconnectRequested, m_bar, &ConnectionBar::disconnectLine);
     connect(m_menus, &Menus::connectRequested, this, connectHere);
     connect(m_menus, &Menus::scanRequested, m_bar, &ConnectionBar::startScan);
     connect(m_menus, &Menus::scanOptionsRequested, m_bar, &ConnectionBar::showScanOptions);
@@ -201,8 +202,13 @@ void MainWindow::onLines()
     const bool open = line && line->state() == BusThread::State::Open;
     m_status->setLine(line);
     m_health->setLine(line);
-    m_menus->setConnected(line != nullptr, open && !m_workbench.scanner.isRunning(),
-                          open && line->name() == QStringLiteral("sim") && !m_workbench.stop.isActive());
+    const bool broken =
+        line && (line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed);
+    m_menus->setConnection(!line    ? Menus::Connection::None
+                           : broken ? Menus::Connection::Broken
+                                    : Menus::Connection::Present,
+                           open && !m_workbench.scanner.isRunning(),
+                           open && line->name() == QStringLiteral("sim") && !m_workbench.stop.isActive());
     // A line that is only being opened for the first time changes nothing yet: it may not come to be.
     const auto &lines = m_workbench.session.lines();
     const bool any = std::ranges::any_of(lines, [](const auto &each) {

@@ -38,8 +38,8 @@ public:
     virtual void discardInput() = 0;
 
     virtual int baudRate() const = 0; ///< bits per second
-    /// Waits for nothing: the caller has drained the line. Fails with PortUnsuitable where the port can't do it (more
-    /// than 3 % off); the old rate stays.
+    /// The caller has drained the line. Waits for nothing but a server's word, on the network. Fails with PortUnsuitable
+    /// where the port can't do it (more than 3 % off); the old rate stays.
     virtual Result<void> setBaudRate(int bitsPerSecond) = 0;
     /// False: somebody else decides on the rate, baudRate() is what we were told, and setBaudRate() always fails.
     virtual bool canSetBaudRate() const { return true; }

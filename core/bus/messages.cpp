@@ -249,7 +249,7 @@ Error rateRefused(const QString &port, int wanted, int made)
 Error addressMalformed(const QString &port)
 {
     return {ErrorKind::PortUnsuitable,
-            QStringLiteral(
+            Messages::tr(
                 "%1 is no address: it is written tcp://HOST:PORT, tcp://HOST:PORT?baud=RATE or rfc2217://HOST:PORT, "
                 "an IPv6 address in brackets")
                 .arg(port)};
@@ -258,37 +258,37 @@ Error addressMalformed(const QString &port)
 Error portNumberWrong(const QString &port, const QString &number)
 {
     return {ErrorKind::PortUnsuitable,
-            QStringLiteral("%1: a port is a number from 1 to 65535, not \"%2\"").arg(port, number)};
+            Messages::tr("%1: a port is a number from 1 to 65535, not \"%2\"").arg(port, number)};
 }
 
 Error hostUnknown(const QString &port, const QString &host)
 {
-    return {ErrorKind::PortNotFound, QStringLiteral("%1: there is no host %2").arg(port, host)};
+    return {ErrorKind::PortNotFound, Messages::tr("%1: there is no host %2").arg(port, host)};
 }
 
 Error nameServerSilent(const QString &port, const QString &host)
 {
     return {ErrorKind::PortNotFound,
-            QStringLiteral("%1: no name server says where the host %2 is: is the network up?").arg(port, host)};
+            Messages::tr("%1: no name server says where the host %2 is: is the network up?").arg(port, host)};
 }
 
 Error hostSilent(const QString &port, const QString &host, LineTime waited)
 {
     return {ErrorKind::PortNotFound,
-            QStringLiteral("%1: %2 did not answer within %3: is it on, and no firewall between?")
+            Messages::tr("%1: %2 did not answer within %3: is it on, and no firewall between?")
                 .arg(port, host, durationText(waited))};
 }
 
 Error hostUnreachable(const QString &port, const QString &host, const QString &reason)
 {
-    return {ErrorKind::PortNotFound, QStringLiteral("%1: %2 can't be reached: %3").arg(port, host, reason)};
+    return {ErrorKind::PortNotFound, Messages::tr("%1: %2 can't be reached: %3").arg(port, host, reason)};
 }
 
 Error connectionRefused(const QString &port)
 {
     return {
         ErrorKind::PortNotFound,
-        QStringLiteral("%1 refused the connection: nothing listens there. Is the serial server running, and the port "
+        Messages::tr("%1 refused the connection: nothing listens there. Is the serial server running, and the port "
                        "number right?")
             .arg(port)};
 }
@@ -296,20 +296,20 @@ Error connectionRefused(const QString &port)
 Error connectionEnded(const QString &port, const QString &words)
 {
     return {ErrorKind::PortBusy,
-            QStringLiteral("%1 ended the connection at once%2: is its serial port plugged in, and used by nobody else?")
+            Messages::tr("%1 ended the connection at once%2: is its serial port plugged in, and used by nobody else?")
                 .arg(port, words.isEmpty() ? QString() : QStringLiteral(" (\"%1\")").arg(words))};
 }
 
 Error connectionLost(const QString &port)
 {
     return {ErrorKind::PortLost,
-            QStringLiteral("the connection to %1 is lost: the server ended it, or the network is down").arg(port)};
+            Messages::tr("the connection to %1 is lost: the server ended it, or the network is down").arg(port)};
 }
 
 Error notRfc2217(const QString &port)
 {
     return {ErrorKind::PortUnsuitable,
-            QStringLiteral(
+            Messages::tr(
                 "%1 does not let its port be controlled (RFC 2217). If it passes raw bytes on, open it as tcp://")
                 .arg(port)};
 }
@@ -317,7 +317,7 @@ Error notRfc2217(const QString &port)
 Error rateNotConfirmed(const QString &port, int wanted)
 {
     return {ErrorKind::PortLost,
-            QStringLiteral("%1 did not confirm %2 baud: the rate is unknown now, so the connection was ended")
+            Messages::tr("%1 did not confirm %2 baud: the rate is unknown now, so the connection was ended")
                 .arg(port)
                 .arg(wanted)};
 }
@@ -325,7 +325,7 @@ Error rateNotConfirmed(const QString &port, int wanted)
 Error rateIsTheServers(const QString &port, int wanted)
 {
     return {ErrorKind::PortUnsuitable,
-            QStringLiteral("%1 can't be set to %2 baud: the rate is the server's, changed in its settings, or through "
+            Messages::tr("%1 can't be set to %2 baud: the rate is the server's, changed in its settings, or through "
                            "rfc2217:// where it offers that")
                 .arg(port)
                 .arg(wanted)};
@@ -335,7 +335,7 @@ Error deviceRateBound(const QString &port)
 {
     return {
         ErrorKind::PortUnsuitable,
-        QStringLiteral("the rate of %1 is the server's, and a device at another one would not be heard there any more; "
+        Messages::tr("the rate of %1 is the server's, and a device at another one would not be heard there any more; "
                        "nothing was written")
             .arg(port)};
 }

@@ -17,6 +17,7 @@ constexpr LineTime LongestAllowance = 1s; ///< whatever connecting took
 constexpr LineTime FirstLook = 100ms;     ///< a server that can't open its port ends the connection within that
 constexpr LineTime AgreementLimit = 3s;
 constexpr LineTime RateLimit = 1s;
+constexpr LineTime LongestWay = 200ms; ///< to the server and back: connecting may have taken seconds
 constexpr LineTime CancelInterval = 20ms;
 constexpr double Tolerance = 0.03; ///< what UARTs bear
 constexpr std::size_t WordsAtMost = 80;
@@ -82,7 +83,7 @@ Result<void> NetworkLine::start(const NetworkAddress &address, int baudRate, con
     if (!m_control)
         return {};
     send(Rfc2217::portSettings());
-    return setBaudRate(baudRate);
+    return setRate(baudRate, cancel);
 }
 
 /// Who doesn't want this option says so, or nothing at all.
@@ -163,21 +164,26 @@ void NetworkLine::discardInput()
     }
 }
 
-/// Asks for a rate and waits for the server's word on it. Empty: it gave none.
-std::optional<int> NetworkLine::request(int bitsPerSecond)
+/// Asks for a rate and waits for the server's word on it. Empty: it gave none, or we were cancelled.
+std::optional<int> NetworkLine::request(int bitsPerSecond, const std::atomic<bool> &cancel)
 {
     if (!send(m_control->requestRate(bitsPerSecond)))
         return std::nullopt;
-    const LineTime deadline = now() + RateLimit + m_socket.roundTrip();
-    while (!m_control->confirmedRate() && now() < deadline) {
+    const LineTime deadline = now() + RateLimit + std::min(m_socket.roundTrip(), LongestWay);
+    while (!m_control->confirmedRate() && now() < deadline && !cancel.load(std::memory_order_acquire)) {
         m_waiting.clear(); // of the old rate
-        if (!receive(m_waiting, deadline))
+        if (!receive(m_waiting, std::min(deadline, now() + CancelInterval)))
             return std::nullopt;
     }
     return m_control->confirmedRate();
 }
 
 Result<void> NetworkLine::setBaudRate(int bitsPerSecond)
+{
+    return setRate(bitsPerSecond, false);
+}
+
+Result<void> NetworkLine::setRate(int bitsPerSecond, const std::atomic<bool> &cancel)
 {
     if (m_lost)
         return tl::unexpected(*m_lost);
@@ -191,12 +197,14 @@ Result<void> NetworkLine::setBaudRate(int bitsPerSecond)
         if (!receive(m_waiting, m_drainedBy))
             return lose(messages::connectionLost(m_name));
     }
-    const std::optional<int> made = request(bitsPerSecond);
+    const std::optional<int> made = request(bitsPerSecond, cancel);
     if (made && isNear(*made, bitsPerSecond)) {
         m_baudRate = bitsPerSecond;
         return {};
     }
-    const std::optional<int> back = made ? request(m_baudRate) : std::nullopt;
+    const std::optional<int> back = made ? request(m_baudRate, cancel) : std::nullopt;
+    if (cancel.load(std::memory_order_acquire))
+        return lose(messages::cancelled());
     if (!back || !isNear(*back, m_baudRate))
         return lose(messages::rateNotConfirmed(m_name, made ? m_baudRate : bitsPerSecond));
     return tl::unexpected(messages::rateRefused(m_name, bitsPerSecond, *made));

@@ -25,6 +25,8 @@ public:
     Result<void> read(Bytes &buffer, LineTime deadline) override;
     void discardInput() override;
     int baudRate() const override { return m_baudRate; }
+    /// Waits for the server's word, 1.2 s at most; once more as long to return to the old rate where the server can't
+    /// make the new one.
     Result<void> setBaudRate(int bitsPerSecond) override;
     bool canSetBaudRate() const override { return m_control.has_value(); }
     LineTime hostAllowance() const override { return m_hostAllowance; }
@@ -36,7 +38,8 @@ private:
     Result<void> agree(Bytes &greetings, const std::atomic<bool> &cancel);
     bool receive(Bytes &buffer, LineTime deadline);
     bool send(ByteView bytes);
-    std::optional<int> request(int bitsPerSecond);
+    Result<void> setRate(int bitsPerSecond, const std::atomic<bool> &cancel);
+    std::optional<int> request(int bitsPerSecond, const std::atomic<bool> &cancel);
     Result<void> lose(const Error &why);
 
     QString m_name;

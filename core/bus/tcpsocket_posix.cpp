@@ -26,7 +26,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr LineTime CancelInterval = 20ms;
-constexpr LineTime WriteLimit = 2s; ///< a packet that the system doesn't take that long: nobody reads it any more
+constexpr LineTime WriteLimit = 200ms; ///< a packet that the system doesn't take that long: nobody reads it any more
 constexpr std::size_t ReadAtMost = 4096;
 #ifdef MSG_NOSIGNAL
 constexpr int SendFlags = MSG_NOSIGNAL;

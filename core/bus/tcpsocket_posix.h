@@ -24,7 +24,8 @@ public:
     /// Time that connecting took: about one round trip.
     LineTime roundTrip() const { return m_roundTrip; }
 
-    /// Hands everything to the system. False: the connection is lost.
+    /// Hands everything to the system. False: the connection is lost, or nobody has read from it for so long that the
+    /// system didn't take it within 200 ms.
     bool write(ByteView bytes);
     /// Appends what has come, 4 KiB at most; waits for the first byte until `deadline` on the monotonic clock. False:
     /// the connection is lost, and everything that came before has been read.

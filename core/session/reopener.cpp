@@ -14,6 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto LookInterval = 1s;
+constexpr int LooksAtMost = 30; ///< between two tries to reach a server on the network
 
 bool isIdle(const LineSession &line)
 {
@@ -46,7 +47,7 @@ void Reopener::follow(LineSession *line)
 void Reopener::onState(LineSession *line)
 {
     if (line->state() == BusThread::State::Lost) {
-        m_lost.try_emplace(line, Lost{line->name(), 0});
+        m_lost.try_emplace(line, Lost{line->name()});
         return;
     }
     if (line->state() == BusThread::State::Closed)
@@ -54,7 +55,8 @@ void Reopener::onState(LineSession *line)
     if (line->state() != BusThread::State::Open)
         return;
     take(m_ports.ports());
-    m_adapters[line] = {identityOf(line->name()), QFileInfo(line->name()).isSymLink()};
+    const PortInfo info = infoOf(line->name());
+    m_adapters[line] = {info.identity, info.description, QFileInfo(line->name()).isSymLink()};
     const auto lost = m_lost.find(line);
     if (lost == m_lost.end())
         return;
@@ -84,28 +86,39 @@ void Reopener::take(std::vector<PortInfo> ports)
 }
 
 /// A link (/dev/serial/by-id/...) is followed.
-QString Reopener::identityOf(const QString &name) const
+PortInfo Reopener::infoOf(const QString &name) const
 {
     const QString target = QFileInfo(name).canonicalFilePath();
     const auto at = std::ranges::find_if(
         m_seen, [&](const PortInfo &info) { return info.name == name || (!target.isEmpty() && info.name == target); });
-    return at == m_seen.end() ? QString() : at->identity;
+    return at == m_seen.end() ? PortInfo() : *at;
+}
+
+/// Without serial numbers the kind decides, as far as the system tells it.
+bool Reopener::isSame(const Adapter &adapter, const QString &name) const
+{
+    const PortInfo now = infoOf(name);
+    if (!adapter.identity.isEmpty() || !now.identity.isEmpty())
+        return adapter.identity == now.identity;
+    return adapter.description.isEmpty() || now.description.isEmpty() || adapter.description == now.description;
 }
 
 Result<QString> Reopener::whereIs(const LineSession &line) const
 {
     const QString name = line.name();
     const auto known = m_adapters.find(&line);
-    const auto [identity, isLink] = known == m_adapters.end() ? Adapter() : known->second;
-    const bool isSame = identityOf(name) == identity;
+    const Adapter adapter = known == m_adapters.end() ? Adapter() : known->second;
+    const QString &identity = adapter.identity;
+    const bool same = isSame(adapter, name);
     // Two of the same number (cheap adapters have such) are nobody in particular.
-    if (!identity.isEmpty() && !isSame && !isLink && std::ranges::count(m_seen, identity, &PortInfo::identity) == 1)
+    if (!identity.isEmpty() && !same && !adapter.isLink
+        && std::ranges::count(m_seen, identity, &PortInfo::identity) == 1)
         return std::ranges::find(m_seen, identity, &PortInfo::identity)->name;
     const bool isThere = NetworkAddress::isNetworkName(name) || QFileInfo::exists(name)
                          || std::ranges::find(m_seen, name, &PortInfo::name) != m_seen.end();
     if (!isThere)
         return failure(ErrorKind::PortNotFound, tr("%1 is not plugged in").arg(name));
-    if (known != m_adapters.end() && !isSame) {
+    if (known != m_adapters.end() && !same) {
         return failure(ErrorKind::PortUnsuitable,
                        tr("Another adapter is at %1 now. To use it, disconnect and connect again.").arg(name));
     }
@@ -118,6 +131,8 @@ Result<void> Reopener::reopen(LineSession &line)
     const Result<QString> where = whereIs(line);
     if (!where)
         return tl::unexpected(where.error());
+    if (const auto lost = m_lost.find(&line); lost != m_lost.end())
+        lost->second = {lost->second.name, lost->second.refusals};
     line.reopen(*where);
     return {};
 }
@@ -129,6 +144,19 @@ bool Reopener::isOpenElsewhere(const LineSession &line, const QString &name) con
     });
 }
 
+/// Each try costs a connection, and a server that is off may stay so for days.
+bool Reopener::isTurn(const LineSession &line)
+{
+    const auto lost = m_lost.find(&line);
+    if (lost == m_lost.end() || !NetworkAddress::isNetworkName(line.name()))
+        return true;
+    if (lost->second.looksLeft-- > 0)
+        return false;
+    lost->second.looksLeft = lost->second.looksNext - 1;
+    lost->second.looksNext = std::min(2 * lost->second.looksNext, LooksAtMost);
+    return true;
+}
+
 void Reopener::look()
 {
     take(m_ports.ports());
@@ -138,7 +166,7 @@ void Reopener::look()
         if (!m_lost.contains(line.get()) || !isIdle(*line))
             continue;
         const Result<QString> where = whereIs(*line);
-        if (where && !isOpenElsewhere(*line, *where))
+        if (where && !isOpenElsewhere(*line, *where) && isTurn(*line))
             line->reopen(*where);
     }
 }

@@ -10,8 +10,9 @@
 namespace dynascope {
 
 /// Watches which ports there are, and opens a lost line again once its adapter is back: known by its serial number, so
-/// that it is found under another name, and another adapter under the old name is left alone. STOP stays as it is. GUI
-/// thread.
+/// that it is found under another name, and another adapter under the old name is left alone. One without a serial
+/// number is known by name and kind only: another of its kind is taken for it. A server on the network is asked again
+/// after 1, 2, 4... s, then every 30 s. STOP stays as it is. GUI thread.
 class Reopener : public QObject
 {
     Q_OBJECT
@@ -44,10 +45,13 @@ private:
     struct Lost {
         QString name; ///< that it had
         int refusals = 0;
+        int looksLeft = 0; ///< until a server on the network is asked again
+        int looksNext = 1;
     };
     /// What a line was opened on.
     struct Adapter {
         QString identity;
+        QString description;
         bool isLink = false; ///< its name follows the adapter by itself: /dev/serial/by-id/...
     };
 
@@ -55,7 +59,9 @@ private:
     void follow(LineSession *line);
     void onState(LineSession *line);
     void onRefused(LineSession *line);
-    QString identityOf(const QString &name) const;
+    PortInfo infoOf(const QString &name) const;
+    bool isSame(const Adapter &adapter, const QString &name) const;
+    bool isTurn(const LineSession &line);
     bool isOpenElsewhere(const LineSession &line, const QString &name) const;
 
     Session &m_session;

@@ -98,6 +98,22 @@ private slots:
             QStringLiteral(
                 "the rate of tcp://pi:4000 is the server's, and a device at another one would not be heard there "
                 "any more; nothing was written"));
+        const Error silent = messages::asleep(3);
+        row("late", messages::onlyLate(3),
+            QStringLiteral(
+                "device 3 did not answer in time: what came may be its answer to an earlier request"));
+        row("asleep", silent, QStringLiteral("device 3 does not answer"));
+        row("with nobody", messages::withOthers(silent, {}),
+            QStringLiteral("device 3 does not answer; nothing else on the line has answered lately"));
+        row("with one", messages::withOthers(silent, {7}),
+            QStringLiteral("device 3 does not answer; device 7 on this line answers"));
+        row("with two", messages::withOthers(silent, {7, 9}),
+            QStringLiteral("device 3 does not answer; devices 7, 9 on this line answer"));
+        row("with many", messages::withOthers(silent, {1, 2, 4, 5, 6, 7, 8, 9, 10, 11}),
+            QStringLiteral("device 3 does not answer; devices 1, 2, 4, 5, 6, 7, 8, 9, and 2 more on this line answer"));
+        row("unreadable", {ErrorKind::NoHeader, messages::unreadable(5)},
+            QStringLiteral("somebody is there, but unreadable: 5 bytes came that make no answer (two devices under one "
+                           "ID, another baud rate, another controller, or noise)"));
         row("level", messages::silentByLevel(3, 0),
             QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping"));
         row("limit", messages::refused(3, DeviceError::DataLimit),
@@ -129,7 +145,15 @@ private slots:
             messages::portNotFound(port), messages::portEmpty(port),
             messages::portForbidden(port), messages::portBusy(port, port), messages::portBusy(port, {}),
             messages::portNotSerial(port), messages::portFailed(port, port), messages::portLost(port),
-            messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0)};
+            messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0),
+            messages::addressMalformed(port), messages::portNumberWrong(port, port), messages::hostUnknown(port, port),
+            messages::nameServerSilent(port, port), messages::hostSilent(port, port, 5s),
+            messages::hostUnreachable(port, port, port), messages::connectionRefused(port),
+            messages::connectionEnded(port, {}), messages::connectionLost(port), messages::notRfc2217(port),
+            messages::rateNotConfirmed(port, 1), messages::rateIsTheServers(port, 1), messages::deviceRateBound(port),
+            messages::onlyLate(1), messages::asleep(1), messages::withOthers(messages::asleep(1), {}),
+            messages::withOthers(messages::asleep(1), {2}), messages::withOthers(messages::asleep(1), {2, 3}),
+            {ErrorKind::NoHeader, messages::unreadable(2)}};
         QCoreApplication::removeTranslator(&brackets);
         for (const Error &error : all)
             QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));

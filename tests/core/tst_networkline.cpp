@@ -313,6 +313,38 @@ private slots:
         QCOMPARE(wire.line->write(Bytes{1}).error(), set.error()); // nothing goes out at a rate nobody knows
     }
 
+    void givesUpWaitingForARate()
+    {
+        LoopbackServer server;
+        std::atomic<bool> cancel = false;
+        std::thread serving([&] {
+            server.accept();
+            server.write(hex::bytes("FF FD 2C FF FB 00 FF FD 00"));
+            (void)server.readUntil(EndOfRateRequest);
+            cancel = true; // and no word on the rate
+        });
+        const Error error = errorOf(server.address(QStringLiteral("rfc2217")), {}, cancel);
+        serving.join();
+        QCOMPARE(error.kind, ErrorKind::Cancelled);
+    }
+
+    void whoReadsNothingIsLostSoon()
+    {
+        LoopbackServer server;
+        const auto line = opened(server.address(QStringLiteral("tcp")));
+        server.accept();
+        const Bytes much(1'000'000, 7);
+        LineTime begin{};
+        Result<void> written;
+        for (int i = 0; i < 100 && written; ++i) {
+            begin = line->now();
+            written = line->write(much);
+        }
+        QVERIFY(!written);
+        QCOMPARE(written.error().kind, ErrorKind::PortLost);
+        QVERIFY2(line->now() - begin < 1500ms, "STOP waits as long");
+    }
+
     void aServerThatKnowsNoRfc2217()
     {
         LoopbackServer server;

@@ -104,6 +104,42 @@ private slots:
         QCOMPARE(line.name(), First);
     }
 
+    void anotherKindWithoutASerialNumber()
+    {
+        m_bench->lines.plug({port(First, {})});
+        LineSession &line = openAndScan();
+        m_bench->lines.plug({});
+        QTRY_COMPARE(line.state(), BusThread::State::Lost);
+        m_bench->lines.plug({{First, u"USB modem"_s, {}, {}}});
+        m_reopener->look();
+        QCOMPARE(line.state(), BusThread::State::Lost);
+        QCOMPARE(m_reopener->whereIs(line).error().kind, ErrorKind::PortUnsuitable);
+        m_bench->lines.plug({{First, {}, {}, {}}}); // the system doesn't say what it is
+        m_reopener->look();
+        QTRY_COMPARE(line.state(), BusThread::State::Open);
+    }
+
+    void aServerIsAskedEverLessOften()
+    {
+        const QString server = u"tcp://pi:4000"_s;
+        m_bench->lines.plug({port(server, {})});
+        LineSession &line = m_bench->session.open(server, 1000000);
+        QTRY_COMPARE(line.state(), BusThread::State::Open);
+        m_bench->lines.plug({});
+        QTRY_COMPARE(line.state(), BusThread::State::Lost);
+        int tries = 0;
+        for (int second = 0; second <= 61; ++second) {
+            m_reopener->look();
+            tries += line.state() == BusThread::State::Opening;
+            QTRY_VERIFY(line.state() == BusThread::State::Closed || line.state() == BusThread::State::Lost);
+        }
+        // At 0, 1, 3, 7, 15, 31, 61; the reopener's own timer may look once or twice meanwhile.
+        QVERIFY2(tries >= 6 && tries <= 8, qPrintable(QString::number(tries)));
+        m_bench->lines.plug({port(server, {})});
+        QVERIFY(m_reopener->reopen(line)); // by hand at once
+        QTRY_COMPARE(line.state(), BusThread::State::Open);
+    }
+
     void twoOfTheSameNumber()
     {
         LineSession &line = openAndScan();

@@ -2,7 +2,7 @@
 // Operations of every kind against a line whose answers the input dictates: each ends within a bounded time, and no
 // value is returned as good unless a complete answer with it (CRC, ID, length, no error) came while the operation ran.
 #include "core/bus/operations.h"
-#include "tests/fuzz/hostileline.h"
+#include "tests/fuzz/dictatedline.h"
 #include "tests/support/oracle.h"
 
 using namespace dynascope;
@@ -93,7 +93,7 @@ std::vector<Span> spansFrom(fuzz::Input &input, bool same)
     return spans;
 }
 
-void readManyAndCheck(Bus &bus, fuzz::HostileLine &line, const std::vector<Span> &spans)
+void readManyAndCheck(Bus &bus, fuzz::DictatedLine &line, const std::vector<Span> &spans)
 {
     const auto values = readMany(bus, spans);
     const Bytes stream = line.takeDelivered();
@@ -108,7 +108,7 @@ void readManyAndCheck(Bus &bus, fuzz::HostileLine &line, const std::vector<Span>
     }
 }
 
-void scanAndCheck(Bus &bus, fuzz::HostileLine &line)
+void scanAndCheck(Bus &bus, fuzz::DictatedLine &line)
 {
     const auto found = scanBaud(bus, {0, 40}, {});
     const Bytes stream = line.takeDelivered();
@@ -121,7 +121,7 @@ void scanAndCheck(Bus &bus, fuzz::HostileLine &line)
     }
 }
 
-void pingAndCheck(Bus &bus, fuzz::HostileLine &line, std::uint8_t id)
+void pingAndCheck(Bus &bus, fuzz::DictatedLine &line, std::uint8_t id)
 {
     const auto reply = ping(bus, id);
     if (reply) {
@@ -131,7 +131,7 @@ void pingAndCheck(Bus &bus, fuzz::HostileLine &line, std::uint8_t id)
     }
 }
 
-void act(Bus &bus, fuzz::HostileLine &line, fuzz::Input &input)
+void act(Bus &bus, fuzz::DictatedLine &line, fuzz::Input &input)
 {
     const std::uint8_t kind = input.byte();
     const std::uint8_t id = input.byte() % 253;
@@ -179,7 +179,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     constexpr LineTime LongestOperation = 120s; // a scan in which every ID seems to be there and is asked again
     constexpr int MostOperations = 6;
     fuzz::Input input(data, size);
-    fuzz::HostileLine line(input);
+    fuzz::DictatedLine line(input);
     Bus bus(line);
     const std::uint8_t level = input.byte();
     std::vector<Traits> traits;

@@ -268,6 +268,26 @@ private slots:
         QVERIFY(m_bench->session.devices().size() <= 3);
     }
 
+    void aBrokenLineCanBeGivenUp()
+    {
+        const QString name = QStringLiteral("/dev/ttyUSB0");
+        m_bench->lines.plug({port(name, QStringLiteral("A"))});
+        connectNow();
+        auto *giveUp = find<QToolButton>("disconnectButton");
+        QVERIFY(giveUp->isHidden());
+        m_bench->lines.plug({});
+        QTRY_COMPARE(m_connector->line(name)->state(), BusThread::State::Lost);
+        m_bench->lines.plug({port(name, QStringLiteral("B"))});
+        QTest::mouseClick(find<QPushButton>("connectButton"), Qt::LeftButton);
+        QVERIFY2(m_said.back().startsWith(QStringLiteral("Another adapter is at")), qPrintable(m_said.back()));
+        QVERIFY(!giveUp->isHidden());
+        giveUp->click();
+        QVERIFY(!m_bar->currentLine());
+        QVERIFY(m_bench->session.devices().empty());
+        QTRY_VERIFY(giveUp->isHidden());
+        connectNow(); // to the other one
+    }
+
     void movesTheLineToAnotherRate()
     {
         connectNow();

@@ -36,6 +36,23 @@ private slots:
         QCOMPARE(nameOf(QStringLiteral("sim"), 1), QString()); // the next new servo is no gripper
     }
 
+    void anotherAdapterUnderTheSameNameInheritsNothing()
+    {
+        const QString port = QStringLiteral("/dev/ttyUSB0");
+        const auto plug = [&port](Bench &bench, const QString &identity) {
+            bench.fixture.lines.plug({{port, QStringLiteral("U2D2"), {}, identity}});
+        };
+        Bench bench;
+        plug(bench, QStringLiteral("A"));
+        bench.heard(port, 4).setNickname(QStringLiteral("shoulder"));
+        bench.fixture.session.close(*bench.fixture.session.lines().front());
+        plug(bench, QStringLiteral("B")); // in the same run
+        QCOMPARE(bench.heard(port, 4).nickname(), QString());
+        bench.fixture.session.close(*bench.fixture.session.lines().front());
+        bench.fixture.lines.plug({{QStringLiteral("/dev/ttyUSB1"), QStringLiteral("U2D2"), {}, QStringLiteral("A")}});
+        QCOMPARE(bench.heard(QStringLiteral("/dev/ttyUSB1"), 4).nickname(), QStringLiteral("shoulder"));
+    }
+
 private:
     static Found found(int id) { return {static_cast<std::uint8_t>(id), 1'000'000, 1020, 45, false, {}}; }
 

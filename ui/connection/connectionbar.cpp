@@ -32,6 +32,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     , m_rate(new QStackedWidget(this))
     , m_baud(new BaudCombo(this))
     , m_connect(new QPushButton(this))
+    , m_disconnect(new QToolButton(this))
     , m_scan(new QPushButton(this))
     , m_scanMore(new QToolButton(this))
     , m_status(new QStackedWidget(this))
@@ -63,6 +64,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     connect(m_baud, &BaudCombo::baudRateChosen, this, &ConnectionBar::onBaudChosen);
     connect(m_baud, &QComboBox::editTextChanged, this, &ConnectionBar::update);
     connect(m_connect, &QPushButton::clicked, this, &ConnectionBar::toggleConnection);
+    connect(m_disconnect, &QToolButton::clicked, this, &ConnectionBar::disconnectLine);
     connect(m_scan, &QPushButton::clicked, this, &ConnectionBar::startScan);
     connect(m_scanMore, &QToolButton::clicked, this, &ConnectionBar::showScanOptions);
     connect(m_cancel, &QToolButton::clicked, &connector, &Connector::cancelScan);
@@ -79,6 +81,11 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
 void ConnectionBar::makeButtons()
 {
     m_connect->setObjectName(QStringLiteral("connectButton"));
+    m_disconnect->setObjectName(QStringLiteral("disconnectButton"));
+    m_disconnect->setIcon(icon(QStringLiteral("disconnect")));
+    m_disconnect->setAutoRaise(false);
+    m_disconnect->setToolTip(tr("Disconnect: give this port up, and forget its devices"));
+    m_disconnect->setAccessibleName(tr("Disconnect"));
     m_scan->setObjectName(QStringLiteral("scanButton"));
     m_scan->setText(tr("Scan"));
     m_scan->setIcon(icon(QStringLiteral("scan")));
@@ -139,6 +146,7 @@ void ConnectionBar::addAll()
     m_rate->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
     layout->addWidget(m_rate);
     layout->addWidget(m_connect);
+    layout->addWidget(m_disconnect);
     auto *scan = new QHBoxLayout;
     scan->setSpacing(2);
     scan->addWidget(m_scan);
@@ -147,8 +155,8 @@ void ConnectionBar::addAll()
     layout->addWidget(m_status, 2);
     layout->addWidget(new StopButton(m_workbench.stop, content));
     for (QWidget *widget : {static_cast<QWidget *>(m_port), static_cast<QWidget *>(m_baud),
-                            static_cast<QWidget *>(m_connect), static_cast<QWidget *>(m_scan),
-                            static_cast<QWidget *>(m_scanMore)})
+                            static_cast<QWidget *>(m_connect), static_cast<QWidget *>(m_disconnect),
+                            static_cast<QWidget *>(m_scan), static_cast<QWidget *>(m_scanMore)})
         widget->setFixedHeight(32);
     content->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     addWidget(content);
@@ -180,6 +188,12 @@ void ConnectionBar::toggleConnection()
     else if (line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed)
         m_connector.reconnect(*line);
     else
+        m_connector.disconnectFrom(*line);
+}
+
+void ConnectionBar::disconnectLine()
+{
+    if (LineSession *line = currentLine())
         m_connector.disconnectFrom(*line);
 }
 
@@ -226,8 +240,10 @@ void ConnectionBar::update()
     m_connect->setText(!line ? tr("Connect") : broken ? tr("Reconnect") : tr("Disconnect"));
     m_connect->setIcon(icon(!line || broken ? QStringLiteral("connect") : QStringLiteral("disconnect")));
     m_connect->setEnabled(line || valid);
-    m_connect->setToolTip(!line ? tr("Open this port and look for devices (Ctrl+Return)")
-                                : tr("Close this port. Torque stays as it is. (Ctrl+Return)"));
+    m_disconnect->setVisible(broken);
+    m_connect->setToolTip(!line    ? tr("Open this port and look for devices (Ctrl+Return)")
+                          : broken ? tr("Open this port again; its devices are kept (Ctrl+Return)")
+                                   : tr("Close this port. Torque stays as it is. (Ctrl+Return)"));
     m_scan->setEnabled(open && !m_workbench.scanner.isRunning());
     m_scanMore->setEnabled(m_scan->isEnabled());
 

@@ -34,7 +34,8 @@ public:
     void choosePort(); ///< opens the list
 
 public slots:
-    void toggleConnection();
+    void toggleConnection(); ///< a broken line is opened again
+    void disconnectLine();   ///< gives up a broken one too
     void startScan();
     void showScanOptions();
 
@@ -58,6 +59,7 @@ private:
     QStackedWidget *m_rate; ///< m_baud, or words where it is a server's
     BaudCombo *m_baud;
     QPushButton *m_connect;
+    QToolButton *m_disconnect; ///< there while the line is broken, and m_connect says Reconnect
     QPushButton *m_scan;
     QToolButton *m_scanMore;
     QStackedWidget *m_status;

@@ -81,8 +81,14 @@ void Connector::reconnect(LineSession &line)
 {
     if (line.state() != BusThread::State::Lost && line.state() != BusThread::State::Closed)
         return; // it is back already
-    if (const Result<void> asked = m_reopener.reopen(line); !asked)
-        emit posted({MessageKind::Warning, asked.error().text, {}, {}});
+    const Result<void> asked = m_reopener.reopen(line);
+    if (asked)
+        return;
+    const auto giveUp = [this, where = QPointer<LineSession>(&line)] {
+        if (where)
+            disconnectFrom(*where);
+    };
+    emit posted({MessageKind::Warning, asked.error().text, tr("Disconnect"), giveUp});
 }
 
 void Connector::scan(LineSession &line, const ScanRange &range)

@@ -23,8 +23,8 @@ protected:
     void check() override;
 
 private:
-    bool isAlone() const;
-    int mostLikely(const Device &device) const; ///< nobody else at the line's working baud rate
+    bool isAlone() const; ///< nobody else at the line's working baud rate
+    int mostLikely(const Device &device) const;
 
     Commands &m_commands;
     QComboBox *m_baud;

@@ -19,12 +19,13 @@ public:
     explicit Nicknames(const Workbench &workbench, QObject *parent = nullptr);
 
 private:
+    void follow(const LineSession *line);
     void recall(Device *device);
     void keep(const Device &device);
     QString keyOf(const Device &device);
 
     Workbench m_workbench;
-    QHash<QString, QString> m_adapters; ///< port → its serial number, else its name
+    QHash<const LineSession *, QString> m_adapters; ///< what each line was opened on: see keyOf()
     QHash<DeviceKey, QString> m_keys;   ///< where each one's name stands now
 };
 

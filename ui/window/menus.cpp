@@ -23,7 +23,7 @@ Menus::Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout)
     makeDeviceMenu(offered.device);
     makeDemoMenu();
     makeHelpMenu();
-    setConnected(false, false, false);
+    setConnection(Connection::None, false, false);
 }
 
 QAction *Menus::add(
@@ -46,6 +46,9 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
     m_connect = add(menu, QStringLiteral("toggleConnectionAction"), tr("&Connect"), QStringLiteral("Ctrl+Return"),
                     QStringLiteral("connect"));
     connect(m_connect, &QAction::triggered, this, &Menus::toggleConnectionRequested);
+    m_disconnect =
+        add(menu, QStringLiteral("disconnectAction"), tr("&Disconnect"), {}, QStringLiteral("disconnect"));
+    connect(m_disconnect, &QAction::triggered, this, &Menus::disconnectRequested);
     QMenu *recent = menu->addMenu(tr("&Recent ports"));
     connect(recent, &QMenu::aboutToShow, this, [this, recent] { fillRecent(recent); });
     QAction *reopen = add(menu, QStringLiteral("reopenAction"), tr("Reconnect &by itself when plugged in again"), {});
@@ -173,10 +176,13 @@ void Menus::makeHelpMenu()
     connect(about, &QAction::triggered, this, [this] { showAbout(m_window); });
 }
 
-void Menus::setConnected(bool connected, bool canScan, bool simulated)
+void Menus::setConnection(Connection connection, bool canScan, bool simulated)
 {
-    m_connect->setText(connected ? tr("Dis&connect") : tr("&Connect"));
-    m_connect->setIcon(icon(connected ? QStringLiteral("disconnect") : QStringLiteral("connect")));
+    const bool present = connection == Connection::Present;
+    const bool broken = connection == Connection::Broken;
+    m_connect->setText(present ? tr("Dis&connect") : broken ? tr("Re&connect") : tr("&Connect"));
+    m_disconnect->setVisible(broken);
+    m_connect->setIcon(icon(present ? QStringLiteral("disconnect") : QStringLiteral("connect")));
     m_scan->setEnabled(canScan);
     m_scanOptions->setEnabled(canScan);
     m_resumeDemo->setEnabled(simulated);

@@ -26,12 +26,14 @@ public:
 
     Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout);
 
-    void setConnected(bool connected, bool canScan, bool simulated);
+    enum class Connection { None, Present, Broken };
+    void setConnection(Connection connection, bool canScan, bool simulated);
     void setScheme(ColorScheme scheme); ///< which one is ticked
 
 signals:
     void choosePortRequested();
     void toggleConnectionRequested();
+    void disconnectRequested(); ///< of a broken line, that the toggle opens again
     void connectRequested(const QString &port);
     void reopeningToggled(bool byItself);
     void scanRequested();
@@ -54,6 +56,7 @@ private:
 
     QMainWindow &m_window;
     QAction *m_connect = nullptr;
+    QAction *m_disconnect = nullptr;
     QAction *m_scan = nullptr;
     QAction *m_scanOptions = nullptr;
     QAction *m_resumeDemo = nullptr;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/fuzz/hostileline.h"
+#include "tests/fuzz/dictatedline.h"
 
 #include "tests/support/oracle.h"
 
@@ -59,14 +59,14 @@ Bytes fastReply(const Bytes &request, Input &input)
 
 } // namespace
 
-HostileLine::HostileLine(Input &input) : m_input(input)
+DictatedLine::DictatedLine(Input &input) : m_input(input)
 {
     const std::uint8_t flags = input.byte();
     m_echo = flags & 1;
     m_allowance = (flags >> 1) * 200us;
 }
 
-Result<void> HostileLine::write(ByteView packet)
+Result<void> DictatedLine::write(ByteView packet)
 {
     if (m_lost)
         return failure(ErrorKind::PortLost, QStringLiteral("gone"));
@@ -80,13 +80,13 @@ Result<void> HostileLine::write(ByteView packet)
     return {};
 }
 
-void HostileLine::answer(const Bytes &request)
+void DictatedLine::answer(const Bytes &request)
 {
     while (const int kind = m_input.byte() % Kinds)
         send(piece(kind, request));
 }
 
-Bytes HostileLine::piece(int kind, const Bytes &request)
+Bytes DictatedLine::piece(int kind, const Bytes &request)
 {
     switch (kind) {
     case Raw: return m_input.bytes(m_input.byte());
@@ -114,7 +114,7 @@ Bytes HostileLine::piece(int kind, const Bytes &request)
     }
 }
 
-void HostileLine::send(const Bytes &bytes)
+void DictatedLine::send(const Bytes &bytes)
 {
     for (const std::uint8_t byte : bytes) {
         m_wireFree += byteTime();
@@ -122,7 +122,7 @@ void HostileLine::send(const Bytes &bytes)
     }
 }
 
-Result<void> HostileLine::read(Bytes &buffer, LineTime deadline)
+Result<void> DictatedLine::read(Bytes &buffer, LineTime deadline)
 {
     if (m_lost)
         return failure(ErrorKind::PortLost, QStringLiteral("gone"));
@@ -136,7 +136,7 @@ Result<void> HostileLine::read(Bytes &buffer, LineTime deadline)
     return {};
 }
 
-void HostileLine::discardInput()
+void DictatedLine::discardInput()
 {
     while (!m_arrivals.empty() && m_arrivals.front().first <= m_now)
         m_arrivals.pop_front();

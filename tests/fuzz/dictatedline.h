@@ -10,14 +10,14 @@ namespace fuzz {
 
 /// A line in virtual time whose answers the input dictates. To each request: pieces until a 0 (see answer()); silence
 /// once the input has ended. Delays add up, bytes keep their order.
-class HostileLine final : public dynascope::Line
+class DictatedLine final : public dynascope::Line
 {
 public:
     using LineTime = dynascope::LineTime;
 
-    explicit HostileLine(Input &input);
+    explicit DictatedLine(Input &input);
 
-    QString name() const override { return QStringLiteral("hostile"); }
+    QString name() const override { return QStringLiteral("dictated"); }
     LineTime now() const override { return m_now; }
     dynascope::Result<void> write(ByteView packet) override;
     dynascope::Result<void> read(Bytes &buffer, LineTime deadline) override;
