@@ -78,9 +78,9 @@ void scanInVirtualTime(const Catalog &catalog)
         found += devices ? devices->devices.size() : 0;
     }
     const double seconds = std::chrono::duration<double>(wire.line->now() - begin).count();
-    std::printf("full scan, IDs 0-252 at %zu bauds, 10 servos: found %zu in %.2f s of virtual time, %.0f ms of wall time\n",
-                bauds.size(), found, seconds,
-                std::chrono::duration<double, std::milli>(Clock::now() - wall).count());
+    std::printf(
+        "full scan, IDs 0-252 at %zu bauds, 10 servos: found %zu in %.2f s of virtual time, %.0f ms of wall time\n",
+        bauds.size(), found, seconds, std::chrono::duration<double, std::milli>(Clock::now() - wall).count());
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// STOP: from the press to the first torque-off packet on the wire, by the wire's own log, while the bus is busy in three ways.
-// The design allows 5 ms plus the rest of the packet in flight, p99.
+// STOP: from the press to the first torque-off packet on the wire, by the wire's own log, while the bus is busy in
+// three ways. The design allows 5 ms plus the rest of the packet in flight, p99.
 #include "core/bus/seriallinefactory.h"
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
@@ -30,7 +30,8 @@ LineTime monotonicNow()
     return std::chrono::steady_clock::now().time_since_epoch();
 }
 
-/// Begin and end of the first torque-off Sync Write after `press`, and how long a packet was still in flight at the press.
+/// Begin and end of the first torque-off Sync Write after `press`, and how long a packet was still in flight at the
+/// press.
 struct Seen {
     LineTime afterPress{}, inFlight{};
     bool found = false;
@@ -117,9 +118,12 @@ void report(const char *what, Driver &driver)
         std::printf("STOP %s: no torque-off packet seen\n", what);
         return;
     }
-    const auto at = [&](double part) { return excess[static_cast<std::size_t>(part * static_cast<double>(excess.size() - 1))]; };
-    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight), %d not confirmed\n", what,
-                excess.size(), at(0.5), at(0.99), excess.back(), driver.unconfirmed);
+    const auto at = [&](double part) {
+        return excess[static_cast<std::size_t>(part * static_cast<double>(excess.size() - 1))];
+    };
+    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight), %d not "
+                "confirmed\n",
+                what, excess.size(), at(0.5), at(0.99), excess.back(), driver.unconfirmed);
 }
 
 } // namespace

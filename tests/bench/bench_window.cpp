@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The whole window over pty + QSerialPort with ten servos polled at full rate for a minute: start to first painted frame,
-// memory, and the longest event of the GUI thread by its own CPU time. DYNASCOPE_BENCH_SECONDS shortens it.
+// The whole window over pty + QSerialPort with ten servos polled at full rate for a minute: start to first painted
+// frame, memory, and the longest event of the GUI thread by its own CPU time. DYNASCOPE_BENCH_SECONDS shortens it.
 #include "app/window/workshop.h"
 #include "core/sim/servo.h"
 #include "ui/plot/plotarea.h"

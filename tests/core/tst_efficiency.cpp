@@ -80,7 +80,8 @@ struct World {
         const LineTime begin = line.now();
         if (!poller.runCycle(batch))
             qFatal("the line failed");
-        missing = std::ranges::count_if(batch.values, [](const PollValue &value) { return value.data.size() != Length; });
+        missing =
+            std::ranges::count_if(batch.values, [](const PollValue &value) { return value.data.size() != Length; });
         return line.now() - begin;
     }
 
@@ -187,7 +188,8 @@ private slots:
             worst = std::max(worst, world.cycle() - whole);
             QCOMPARE(world.missing, 1);
         }
-        qInfo("%.2f ms more, of %.2f ms", static_cast<double>(worst / 1us) / 1000, static_cast<double>(whole / 1us) / 1000);
+        qInfo("%.2f ms more, of %.2f ms", static_cast<double>(worst / 1us) / 1000,
+              static_cast<double>(whole / 1us) / 1000);
         QVERIFY(worst <= 5ms);
         const LineTime begin = world.line.now() + 10s; // the probes have become rare
         while (world.line.now() < begin)
@@ -220,8 +222,9 @@ private slots:
         QCOMPARE(found->devices.size(), std::size_t(servos));
         const auto n = static_cast<LineTime::rep>(servos);
         const LineTime limit = 10 * byteTime + (253 - n) * 3ms + n * (14 * byteTime + Processing)
-            + n * (24 * byteTime + Processing); // the confirmation: a Ping and its answer
-        const double part = static_cast<double>((world.line.now() - begin).count()) / static_cast<double>(limit.count());
+                               + n * (24 * byteTime + Processing); // the confirmation: a Ping and its answer
+        const double part =
+            static_cast<double>((world.line.now() - begin).count()) / static_cast<double>(limit.count());
         qInfo("%.4f of what the slots ask for", part);
         QVERIFY2(part <= 1.02, qPrintable(QString::number(part)));
     }

@@ -65,7 +65,8 @@ struct Reserved {
 constexpr std::array reserved{
     Reserved{"^QSerialPort", "^core/bus/|^app/"},
     Reserved{"^Q(Widget|ApplicationWindow|Painter|Pixmap|Icon|Color|Application)$", "^ui/|^app/"},
-    Reserved{"^(unistd|fcntl|termios|poll|pty|signal|csignal|pthread|sys/.*|asm/.*|linux/.*)(\\.h)?$", "_posix\\.(h|cpp)$"},
+    Reserved{"^(unistd|fcntl|termios|poll|pty|signal|csignal|pthread|sys/.*|asm/.*|linux/.*)(\\.h)?$",
+             "_posix\\.(h|cpp)$"},
 };
 
 /// `wildcard` holds one * at most.
@@ -160,7 +161,8 @@ void TestLayering::judges_data()
     QTest::addColumn<bool>("quoted");
     QTest::addColumn<bool>("allowed");
     const auto row = [](const char *file, const char *what, bool quoted, bool allowed) {
-        QTest::addRow("%s <- %s", file, what) << QString::fromLatin1(file) << QString::fromLatin1(what) << quoted << allowed;
+        QTest::addRow("%s <- %s", file, what)
+            << QString::fromLatin1(file) << QString::fromLatin1(what) << quoted << allowed;
     };
     row("core/bus/bus.h", "core/protocol/packet.h", true, true);
     row("core/bus/bus.h", "core/table/field.h", true, false);

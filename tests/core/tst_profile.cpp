@@ -72,7 +72,8 @@ private slots:
         QCOMPARE(profile.at(1e12), (TrajectoryPoint{100 + distance, 0, 0}));
     }
 
-    /// Out of any motion: no jump of position or velocity, acceleration and speed within their limits, the goal reached.
+    /// Out of any motion: no jump of position or velocity, acceleration and speed within their limits, the goal
+    /// reached.
     void continuous_data()
     {
         QTest::addColumn<double>("from");
@@ -88,7 +89,8 @@ private slots:
         QFETCH(double, from);
         QFETCH(double, goal);
         const double v = 2, a = 0.01;
-        for (const ProfileLimits &limits : {ProfileLimits{false, v, a}, {false, 0, a}, {true, 800, 200}, {true, 800, 400}}) {
+        for (const ProfileLimits &limits :
+             {ProfileLimits{false, v, a}, {false, 0, a}, {true, 800, 200}, {true, 800, 400}}) {
             const PositionProfile profile({0, from, 0}, goal, limits);
             QCOMPARE(profile.at(0).position, 0.0);
             QCOMPARE(profile.at(0).velocity, from);

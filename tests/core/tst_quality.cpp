@@ -151,7 +151,8 @@ private slots:
         QCOMPARE(text(*quality.device(3)), QStringLiteral("good 100"));
         QCOMPARE(quality.device(1)->bytes, quint64(Reads) * 15);
         // Return delay 500 µs, processing 100 µs, 15 bytes at 57 600.
-        const double median = std::chrono::duration<double, std::milli>(quality.device(1)->responses.percentile(0.5)).count();
+        const double median =
+            std::chrono::duration<double, std::milli>(quality.device(1)->responses.percentile(0.5)).count();
         QVERIFY2(median > 2.9 && median < 3.6, qPrintable(QString::number(median)));
         QCOMPARE(quality.sum().good, quality.device(1)->good + quality.device(2)->good + quality.device(3)->good);
         QVERIFY(!quality.device(4));

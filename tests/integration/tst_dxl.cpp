@@ -85,7 +85,8 @@ void TestDxl::ping()
     QCOMPARE(text.code, 0);
 
     const Outcome document = dxl({u"--baud"_s, u"1000000"_s, u"--json"_s, u"ping"_s, u"7"_s});
-    QCOMPARE(document.out, u"{\"id\":7,\"model\":\"XL330-M288\",\"model_number\":1200,\"firmware\":52,\"alert\":false}\n"_s);
+    QCOMPARE(document.out,
+             u"{\"id\":7,\"model\":\"XL330-M288\",\"model_number\":1200,\"firmware\":52,\"alert\":false}\n"_s);
     QCOMPARE(document.code, 0);
 }
 
@@ -213,12 +214,15 @@ void TestDxl::readsOnInAList()
 
 void TestDxl::write()
 {
-    const Outcome outcome = dxl({u"write"_s, u"1"_s, u"drive_mode=0"_s, u"torque_enable=on"_s, u"Goal Position=90deg"_s});
+    const Outcome outcome =
+        dxl({u"write"_s, u"1"_s, u"drive_mode=0"_s, u"torque_enable=on"_s, u"Goal Position=90deg"_s});
     QCOMPARE(outcome.err, QString());
     QCOMPARE(outcome.out, u"Drive Mode = 0 (None)\nTorque Enable = 1 (On)\nGoal Position = 1024 (90.00 °)\n"_s);
     QCOMPARE(outcome.code, 0);
 
-    const auto position = [this] { return json(dxl({u"--json"_s, u"read"_s, u"1"_s, u"132:4"_s})).object()[u"raw"].toInt(); };
+    const auto position = [this] {
+        return json(dxl({u"--json"_s, u"read"_s, u"1"_s, u"132:4"_s})).object()[u"raw"].toInt();
+    };
     QTRY_VERIFY_WITH_TIMEOUT(qAbs(position() - 1024) < 20, 20'000); // it moves there
 
     const Outcome raw = dxl({u"--json"_s, u"write"_s, u"1"_s, u"goal_position=0x800"_s});

@@ -13,7 +13,8 @@
 
 using namespace dynascope;
 
-/// Session and its commands over a pty opened by QSerialPort: the whole of core as the window uses it, without the window.
+/// Session and its commands over a pty opened by QSerialPort: the whole of core as the window uses it, without the
+/// window.
 class TestSession : public QObject
 {
     Q_OBJECT
@@ -217,7 +218,8 @@ private slots:
         m_line->reopen(); // with STOP still held
         QTRY_VERIFY_WITH_TIMEOUT(m_stop->isConfirmed(), 5000);
         std::int64_t torque = 1;
-        m_server->call([&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
+        m_server->call(
+            [&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
         QCOMPARE(torque, 0);
     }
 
@@ -230,7 +232,8 @@ private slots:
         scan({57600}, 0, 3);
         QTRY_VERIFY_WITH_TIMEOUT(m_stop->isConfirmed(), 5000);
         std::int64_t torque = 1;
-        m_server->call([&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
+        m_server->call(
+            [&](sim::SimulatedBus &bus, LineTime) { torque = bus.servo(1, 57600)->value(u"Torque Enable"); });
         QCOMPARE(torque, 0);
     }
 
@@ -324,7 +327,8 @@ private:
         QStringList names;
         for (const Device *device : m_session->devices()) {
             names << device->displayName()
-                    + (device->state() == Device::State::Parked ? QStringLiteral(" parked") : QStringLiteral(" present"));
+                         + (device->state() == Device::State::Parked ? QStringLiteral(" parked")
+                                                                     : QStringLiteral(" present"));
         }
         return names;
     }

@@ -163,9 +163,10 @@ void HostileLine::reply(Bytes packet, LineTime begin)
         else
             packet.erase(packet.begin(), packet.begin() + static_cast<std::ptrdiff_t>(size));
     }
-    if (chance(m_manners.delay))
-        m_adapterFree = std::max(m_adapterFree, begin + (chance(0.5) ? m_manners.longestDelay / 50 : m_manners.longestDelay)
-            * static_cast<LineTime::rep>(upTo(1000)) / 1000);
+    if (chance(m_manners.delay)) {
+        const LineTime longest = chance(0.5) ? m_manners.longestDelay / 50 : m_manners.longestDelay;
+        m_adapterFree = std::max(m_adapterFree, begin + longest * static_cast<LineTime::rep>(upTo(1000)) / 1000);
+    }
     Bytes noise;
     static constexpr std::array<std::uint8_t, 8> Likely{0xFF, 0xFF, 0xFD, 0, 1, 7, 0, 0x55};
     for (std::size_t i = chance(m_manners.noise) ? 1 + upTo(12) : 0; i > 0; --i)

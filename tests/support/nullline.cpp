@@ -28,7 +28,8 @@ Bytes answerTo(ByteView request)
 
 Result<void> NullLine::write(ByteView packet)
 {
-    auto known = std::ranges::find_if(m_known, [&](const Known &one) { return std::ranges::equal(one.request, packet); });
+    auto known =
+        std::ranges::find_if(m_known, [&](const Known &one) { return std::ranges::equal(one.request, packet); });
     if (known == m_known.end()) {
         m_known.push_back({Bytes(packet.begin(), packet.end()), answerTo(packet)});
         known = std::prev(m_known.end());

@@ -24,8 +24,8 @@ void watchWarnings();
 /// Runs the test object; the program's exit code. A warning after the last test function counts as well.
 int run(QObject &test, int argc, char **argv);
 
-/// QTest asks for the meta object before it calls the first function, and that is the moment to watch: it has put its own
-/// message handler in place by then.
+/// QTest asks for the meta object before it calls the first function, and that is the moment to watch: it has put its
+/// own message handler in place by then.
 template <typename TestClass>
 class Watched final : public TestClass
 {
@@ -51,8 +51,8 @@ int main(int argc, char **argv, const Prepare &prepare)
 } // namespace dynascope::test
 
 /// As QTEST_GUILESS_MAIN, and an unexpected warning fails the test. With widgets: see uitest.h.
-#define DYNASCOPE_CORE_TEST(TestClass)                                                                                  \
-    int main(int argc, char **argv)                                                                                     \
-    {                                                                                                                   \
-        return dynascope::test::main<QCoreApplication, TestClass>(argc, argv, [](QCoreApplication &) {});               \
+#define DYNASCOPE_CORE_TEST(TestClass)                                                                                 \
+    int main(int argc, char **argv)                                                                                    \
+    {                                                                                                                  \
+        return dynascope::test::main<QCoreApplication, TestClass>(argc, argv, [](QCoreApplication &) {});              \
     }

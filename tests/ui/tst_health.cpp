@@ -255,7 +255,8 @@ private slots:
         for (int column = 0; column < HealthColumns; ++column)
             before << view->columnWidth(column);
         poll();
-        QTRY_VERIFY(view->model()->index(0, static_cast<int>(HealthColumn::Good)).data().toString() == QStringLiteral("100"));
+        QTRY_VERIFY(view->model()->index(0, static_cast<int>(HealthColumn::Good)).data().toString()
+                    == QStringLiteral("100"));
         for (int column = 0; column < HealthColumns; ++column)
             QCOMPARE(view->columnWidth(column), before[column]);
     }

@@ -177,7 +177,8 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption *option, 
         if (!item || item->menuItemType != QStyleOptionMenuItem::Separator || !item->text.isEmpty())
             break;
         const QRect &rect = item->rect;
-        painter->fillRect(QRect(rect.left() + 8, rect.center().y(), rect.width() - 16, 1), colors(item->palette).border);
+        painter->fillRect(QRect(rect.left() + 8, rect.center().y(), rect.width() - 16, 1),
+                          colors(item->palette).border);
         return;
     }
     case CE_PushButtonLabel: {

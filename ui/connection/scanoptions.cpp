@@ -47,8 +47,9 @@ ScanOptions::ScanOptions(QWidget *parent)
     m_firstId->setAccessibleName(tr("First ID"));
     m_lastId->setAccessibleName(tr("Last ID"));
     m_sweep->setObjectName(QStringLiteral("scanSweep"));
-    m_sweep->setToolTip(tr("For a bus on which a Ping to all at once brings nothing readable, as with an adapter that mixes "
-                           "the answers up. Each ID that nobody has costs a whole waiting time."));
+    m_sweep->setToolTip(
+        tr("For a bus on which a Ping to all at once brings nothing readable, as with an adapter that mixes "
+           "the answers up. Each ID that nobody has costs a whole waiting time."));
     m_scan->setObjectName(QStringLiteral("scanStart"));
     m_scan->setDefault(true);
     for (const int baud : allBauds()) {

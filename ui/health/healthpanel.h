@@ -15,8 +15,8 @@ class ElidedLabel;
 class HealthModel;
 class LineSession;
 
-/// The Bus health view: which device's answers come badly, in which way, and what that usually comes from. What the mouse
-/// or the selection is at is explained below the table.
+/// The Bus health view: which device's answers come badly, in which way, and what that usually comes from. What the
+/// mouse or the selection is at is explained below the table.
 class HealthPanel : public QWidget
 {
     Q_OBJECT

@@ -19,7 +19,11 @@ struct HealthRow {
     friend bool operator==(const HealthRow &, const HealthRow &) = default;
 };
 
-enum class HealthColumn { Name, Id, Bad, Good, Missing, CutOff, Damaged, WrongLength, Late, Retries, Median, Slow, Rate };
+// clang-format off
+enum class HealthColumn {
+    Name, Id, Bad, Good, Missing, CutOff, Damaged, WrongLength, Late, Retries, Median, Slow, Rate
+};
+// clang-format on
 constexpr int HealthColumns = 13;
 
 std::optional<AnswerFault> faultOf(HealthColumn column); ///< nothing: the column counts no fault

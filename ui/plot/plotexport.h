@@ -10,8 +10,8 @@ class QPixmap;
 namespace dynascope {
 
 /// What is seen, as comma-separated values in UTF-8: a line per moment at which something came, a column per visible
-/// trace; seconds since the first line, physical values; empty where a trace has nothing at that moment. False where not
-/// all of it could be written.
+/// trace; seconds since the first line, physical values; empty where a trace has nothing at that moment. False where
+/// not all of it could be written.
 bool writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, LineTime end);
 
 /// Replace `path` only when all has been written.

@@ -39,7 +39,8 @@ void TableEmpty::setTexts(const QString &title, const QString &text)
 {
     m_title->setText(title);
     m_text->setText(text);
-    m_text->setFixedHeight(m_text->heightForWidth(m_text->maximumWidth())); // centred labels get too little by themselves
+    // Centred labels get too little by themselves.
+    m_text->setFixedHeight(m_text->heightForWidth(m_text->maximumWidth()));
 }
 
 } // namespace dynascope
