@@ -11,8 +11,12 @@ constexpr Span ModelNumber{0, 0, 2}; ///< the one register that every Protocol 2
 
 Result<std::vector<Found>> whoIsThere(const Work &work)
 {
-    if (work.options.idList.empty())
-        return scanBaud(work.bus, 0, MaximumId, {});
+    if (work.options.idList.empty()) {
+        Result<BaudScan> scan = scanBaud(work.bus, {}, {});
+        if (!scan)
+            return tl::unexpected(scan.error());
+        return std::move(scan->devices);
+    }
     std::vector<Found> found;
     for (const std::uint8_t id : work.options.idList) {
         Found one;

@@ -12,9 +12,14 @@ namespace {
 constexpr int EnoughOfDevice = 8;
 constexpr int EnoughOfLine = 32;
 constexpr int OftenMissed = 3;
+constexpr int Fading = 256;
 constexpr LineTime Step = 10ms; ///< by which one answer can be later than all before it
-/// What the scheduling of a desktop adds now and then, reference "Time". A line without any delay of its own has none.
-constexpr LineTime Jitter = 2ms;
+/// What the scheduling of a desktop adds now and then, reference "Time": 2 ms, and more where the line itself asks for
+/// much. A line without any delay of its own has none.
+LineTime jitter(LineTime allowance)
+{
+    return std::min(allowance, std::max<LineTime>(2ms, allowance / 8));
+}
 
 } // namespace
 
@@ -27,6 +32,7 @@ void LearnedTiming::Estimate::add(LineTime sample)
         deviation += (std::chrono::abs(sample - mean) - deviation) / 4;
         mean += (sample - mean) / 8;
     }
+    peak = std::max(sample, peak - peak / Fading);
     ++samples;
 }
 
@@ -48,7 +54,7 @@ LineTime LearnedTiming::allowance(std::uint8_t id, LineTime allowance) const
     if (!knowsDevice && m_line.samples < EnoughOfLine)
         return allowance;
     const Estimate &known = knowsDevice ? device : m_line;
-    const LineTime margin = std::min(allowance, Jitter);
+    const LineTime margin = jitter(allowance);
     const LineTime learned = std::clamp(known.longest() + margin, margin, std::max(allowance, Longest));
     return m_misses[id] < OftenMissed ? learned : std::max(learned, allowance);
 }

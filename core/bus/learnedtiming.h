@@ -3,13 +3,14 @@
 
 #include "core/bus/line.h"
 
+#include <algorithm>
 #include <array>
 
 namespace dynascope {
 
 /// What the answers so far teach about when the next one will come: how much later than the device's registers say its
 /// first byte comes, on account of adapter, host and device. Estimated as round trips of TCP are (RFC 6298): mean and
-/// mean deviation. Bounded: what is learned can't make a wait endless, nor shorter than the wire's own time.
+/// mean deviation. The latest of the last hundreds counts, too: hosts stall now and then. Bounded: what is learned can't make a wait endless, nor shorter than the wire's own time.
 class LearnedTiming
 {
 public:
@@ -31,7 +32,8 @@ private:
     struct Estimate {
         LineTime mean{}, deviation{};
         int samples = 0;
-        LineTime longest() const { return mean + 4 * deviation; }
+        LineTime peak{}; ///< the latest of the last hundreds; fades
+        LineTime longest() const { return std::max(mean + 4 * deviation, peak); }
         void add(LineTime sample);
     };
     static constexpr std::size_t Ids = 256;

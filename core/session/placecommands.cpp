@@ -106,8 +106,17 @@ void Commands::finishReturn(Device &device, const DevicePlace &from, const Devic
 
 void Commands::moved(DeviceKey key, const Found &found)
 {
-    if (Device *device = m_session.device(key))
-        device->line()->moveDevice(*device, found);
+    Device *device = m_session.device(key);
+    if (!device)
+        return;
+    device->line()->moveDevice(*device, found);
+    // It answered there: that is what its registers say, before they are read again.
+    const ControlTable &table = device->table();
+    if (const int id = table.indexOf(Known::Id); id >= 0)
+        device->takeReadBack(id, found.id);
+    const int baud = table.indexOf(Known::BaudRate);
+    if (const auto code = table.baudCode(found.baudRate); baud >= 0 && code)
+        device->takeReadBack(baud, *code);
 }
 
 void Commands::finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
