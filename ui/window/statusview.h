@@ -22,6 +22,9 @@ public:
     void setLine(LineSession *line); ///< nullptr: none
     void setDeviceCount(int present, int parked);
 
+protected:
+    void changeEvent(QEvent *event) override;
+
 private:
     QLabel *addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip);
     void update();
