@@ -72,7 +72,7 @@ void StatusView::setDeviceCount(int present, int parked)
 void StatusView::changeEvent(QEvent *event)
 {
     QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange)
+    if (event->type() == QEvent::PaletteChange && m_errors)
         updateErrors();
 }
 

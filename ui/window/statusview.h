@@ -35,7 +35,7 @@ private:
     QLabel *m_devices;
     QLabel *m_rate;
     QLabel *m_load;
-    QLabel *m_errors;
+    QLabel *m_errors = nullptr;
 };
 
 } // namespace dynascope
