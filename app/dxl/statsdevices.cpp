@@ -11,13 +11,13 @@ constexpr Span ModelNumber{0, 0, 2}; ///< the one register that every Protocol 2
 
 Result<std::vector<Found>> whoIsThere(const Work &work)
 {
-    if (work.options.idList.empty()) {
-        Result<BaudScan> scan = scanBaud(work.bus, {}, {});
-        if (!scan)
-            return tl::unexpected(scan.error());
-        return std::move(scan->devices);
-    }
     std::vector<Found> found;
+    if (work.options.idList.empty()) {
+        auto scanned = scanBaud(work.bus, {}, {});
+        if (!scanned)
+            return tl::unexpected(scanned.error());
+        found = std::move(scanned->devices);
+    }
     for (const std::uint8_t id : work.options.idList) {
         Found one;
         one.id = id;

@@ -123,7 +123,7 @@ QString statsText(const Options &options, const StatsDevices &all, const StatsOu
     std::vector<std::pair<DeviceQuality, const StatsDevice *>> devices;
     for (const StatsDevice &device : all.devices)
         devices.emplace_back(qualityOf(device, outcome), &device);
-    std::ranges::stable_sort(devices, std::ranges::greater(), [](const auto &one) { return one.first.badShare(); });
+    std::ranges::stable_sort(devices, std::ranges::greater(), [](const auto &one) { return badness(one.first); });
     std::vector<QStringList> rows{headings()};
     for (const auto &[quality, device] : devices)
         rows.push_back(rowOf(QString::number(quality.id), device->model, quality, quality.responses, outcome));

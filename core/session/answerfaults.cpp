@@ -3,6 +3,8 @@
 
 #include <QCoreApplication>
 
+#include <cmath>
+
 namespace dynascope {
 namespace {
 
@@ -93,6 +95,11 @@ Verdict verdictOn(const DeviceQuality &quality)
     if (quality.badShare() >= BadShare && quality.bad() > Accidents)
         return Verdict::Bad;
     return quality.badShare() >= PoorShare ? Verdict::Poor : Verdict::Good;
+}
+
+std::pair<Verdict, long long> badness(const DeviceQuality &quality)
+{
+    return {verdictOn(quality), std::llround(quality.badShare() * 1e4)};
 }
 
 } // namespace dynascope

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 
 /// What can be wrong with an answer, in words, and how bad that is. Pure.
 namespace dynascope {
@@ -27,5 +28,8 @@ QString usualCauses(AnswerFault fault);  ///< one sentence: what it usually come
 /// From 0.1 % of bad answers on a cable is poor, from 1 % on it is bad. Two bad answers may be an accident.
 enum class Verdict { Unknown, Good, Poor, Bad };
 Verdict verdictOn(const DeviceQuality &quality);
+/// To sort by: the verdict, then the share of bad answers in the steps in which it is shown, 0.01 %. So one bad answer of
+/// twenty doesn't stand above a bad cable, and what looks alike keeps its order.
+std::pair<Verdict, long long> badness(const DeviceQuality &quality);
 
 } // namespace dynascope

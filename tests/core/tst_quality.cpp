@@ -277,6 +277,16 @@ private slots:
         QCOMPARE(int(verdictOn(device(1, good, bad))), expected);
     }
 
+    void aBadCableIsWorseThanAnAccident()
+    {
+        const auto badness = [](quint64 good, quint64 bad) { return dynascope::badness(device(1, good, bad)); };
+        QVERIFY(badness(980, 20) > badness(19, 1));
+        QVERIFY(badness(19, 1) > badness(999, 1));
+        QVERIFY(badness(970, 30) > badness(980, 20));
+        QVERIFY(badness(100'000, 1) == badness(100'000, 0)); // both are shown as 0.00 %
+        QVERIFY(badness(1, 0) > badness(0, 0));
+    }
+
     void theMainFault()
     {
         DeviceQuality quality = device(1, 10, 3);

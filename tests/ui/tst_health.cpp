@@ -186,8 +186,8 @@ private slots:
         poll();
         QTRY_COMPARE(at(0, HealthColumn::Missing), QStringLiteral("30"));
         m_line->moveDevice(*m_line->deviceAt(1, Baud), found(2)); // and the entry of the old 2 goes
-        QCOMPARE(ids(), QStringLiteral("2 3 line"));
-        QCOMPARE(at(0, HealthColumn::Missing), QStringLiteral("0"));
+        QCOMPARE(ids(), QStringLiteral("3 2 line")); // not asked since
+        QCOMPARE(at(1, HealthColumn::Missing), QStringLiteral("0"));
     }
 
     void countsAnewAndCopies()

@@ -2,7 +2,6 @@
 #include "ui/health/healthmodel.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace dynascope {
@@ -11,12 +10,6 @@ namespace {
 bool holds(const std::vector<HealthRow> &rows, quint32 key)
 {
     return std::ranges::find(rows, key, &HealthRow::key) != rows.end();
-}
-
-/// As it is shown: what looks alike keeps its order.
-long long shownShare(const HealthRow &row)
-{
-    return std::llround(row.quality.badShare() * 1e4);
 }
 
 QString nameOf(const Device &device)
@@ -63,7 +56,8 @@ std::vector<HealthRow> HealthModel::makeRows(const Device *leaving) const
     }
     if (rows.empty())
         return rows;
-    std::ranges::stable_sort(rows, std::ranges::greater(), shownShare);
+    std::ranges::stable_sort(
+        rows, std::ranges::greater(), [](const HealthRow &row) { return badness(row.quality); });
     HealthRow line{0, {}, health.quality().sum(), health.bytesPerSecond(), health.quality().totals.strays};
     line.quality.responses = health.quality().roundTrips;
     rows.push_back(std::move(line));

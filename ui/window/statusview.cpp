@@ -6,6 +6,7 @@
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 
@@ -65,6 +66,14 @@ void StatusView::setLine(LineSession *line)
 void StatusView::setDeviceCount(int present, int parked)
 {
     m_devices->setText(parked > 0 ? QStringLiteral("%1 + %2").arg(present).arg(parked) : QString::number(present));
+}
+
+/// The errors' colour goes with light and dark.
+void StatusView::changeEvent(QEvent *event)
+{
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && m_errors)
+        updateErrors();
 }
 
 void StatusView::update()

@@ -22,6 +22,9 @@ public:
     void setLine(LineSession *line); ///< nullptr: none
     void setDeviceCount(int present, int parked);
 
+protected:
+    void changeEvent(QEvent *event) override;
+
 private:
     QLabel *addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip);
     void update();
@@ -32,7 +35,7 @@ private:
     QLabel *m_devices;
     QLabel *m_rate;
     QLabel *m_load;
-    QLabel *m_errors;
+    QLabel *m_errors = nullptr;
 };
 
 } // namespace dynascope
