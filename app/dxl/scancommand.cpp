@@ -18,6 +18,8 @@ void print(const Work &work, const Found &found)
         .addFlag("alert", found.alert);
     QString text = QStringLiteral("%1 bps, ID %2: %3 (model %4), firmware %5")
                        .arg(found.baudRate).arg(found.id).arg(model).arg(found.modelNumber).arg(found.firmware);
+    if (found.modelNumber == 0) // nothing of it could be read
+        text = QStringLiteral("%1 bps, ID %2: unreadable").arg(found.baudRate).arg(found.id);
     if (found.alert)
         text += QStringLiteral(", alert: see Hardware Error Status");
     if (!found.doubt.isEmpty()) {
