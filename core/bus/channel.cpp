@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 namespace {
 
 /// Adapters hand the last bytes to the wire a little later than computed; a change of rate must not catch them.
-constexpr LineTime DrainMargin = 10ms;
+constexpr LineTime DrainMargin = 2ms;
 
 } // namespace
 

@@ -145,10 +145,10 @@ void Connector::onLost(LineSession *line)
 {
     if (m_lost.contains(line))
         return;
-    const QString why = line->bus().error().text; // names the port
-    const QString gone = why.isEmpty() ? tr("%1 is gone").arg(portText(line->name())) : why;
+    const QString why = line->bus().error().text;
     const QString text =
-        (m_reopener.isAutomatic() ? tr("%1. It is opened again when it comes back.") : tr("%1.")).arg(gone);
+        (m_reopener.isAutomatic() ? tr("%1 is gone%2. It is opened again when it comes back.") : tr("%1 is gone%2."))
+            .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
     m_lost.insert(line, text);
     emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
                      if (where)
