@@ -47,7 +47,7 @@ void TestDxlPorts::usage_data()
 {
     QTest::addColumn<QString>("line");
     QTest::addColumn<QString>("says");
-    QTest::newRow("nothing") << QString() << u"scan, ping, read, write or sim"_s;
+    QTest::newRow("nothing") << QString() << u"scan, ping, read, write, stats or sim"_s;
     QTest::newRow("unknown command") << u"--port /dev/null dance"_s << u"dance"_s;
     QTest::newRow("no port") << u"ping 1"_s << u"needs a port"_s;
     QTest::newRow("no ID") << u"--port /dev/null ping"_s << u"ID"_s;
