@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/bus.h"
 
+#include "core/bus/buswaiting.h"
 #include "core/bus/messages.h"
 #include "core/bus/remainder.h"
 #include "core/bus/timing.h"
@@ -15,23 +16,7 @@ namespace {
 
 constexpr LineTime SettleLimit = 50ms;
 
-LineTime times(std::size_t count, LineTime each)
-{
-    return static_cast<LineTime::rep>(count) * each;
-}
-
 } // namespace
-
-/// What one exchange waits by.
-struct Bus::Waiting {
-    LineTime begin{};  ///< write start
-    LineTime sent{};   ///< t0: when the last byte of the request has left
-    LineTime origin{}; ///< from when the present deadline counts: t0, or the end of the predecessor's packet
-    LineTime limit{};  ///< whatever comes, not longer than this
-    LineTime lastByte{};
-    int highestId = MaximumId;
-    Collector::Found found;
-};
 
 void Bus::setTraits(const std::vector<Traits> &traits)
 {
@@ -89,8 +74,7 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
 {
     if (Result<void> ready = prepare(); !ready)
         return ready;
-    if (m_late.concern(request) && !isMute(request, request.replies.front().id)
-        && !isSilenced(request)) {
+    if (m_late.concern(request) && !isMute(request, request.replies.front().id) && !isSilenced(request)) {
         const std::uint8_t first = request.replies.front().id;
         const Result<bool> proven = fence(first);
         if (!proven)
@@ -174,13 +158,11 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
 /// What was missing may still come.
 void Bus::remember(const Request &request, const ExchangeResult &result, LineTime sent)
 {
-    const bool anyLost = std::ranges::any_of(result.replies,
-        [](const Result<Reply> &reply) { return !reply && reply.error().kind != ErrorKind::Refused; });
+    const bool anyLost = std::ranges::any_of(result.replies, isMissing);
     if (anyLost && !isSilenced(request))
         m_late.addMissing(request, result, sent);
     for (std::size_t i = 0; i < result.replies.size() && i < request.replies.size(); ++i) {
-        const bool hidden = result.brokenAt >= 0 && static_cast<int>(i) > result.brokenAt;
-        if (!result.replies[i] && !hidden && result.replies[i].error().kind != ErrorKind::Refused)
+        if (isMissing(result.replies[i]) && !result.isHidden(i))
             m_timing.missed(request.replies[i].id);
     }
     if (request.shape == ReplyShape::Anyone)
@@ -194,7 +176,7 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
 {
     const LineTime byteTime = m_channel.line().byteTime();
     for (const Collector::Belated &late : m_collector.belated())
-        m_timing.learn(late.id, late.by - times(StatusOverhead, byteTime) - traits(late.id).returnDelay);
+        m_timing.learn(late.id, late.by - timing::times(StatusOverhead, byteTime) - traits(late.id).returnDelay);
     if (request.isWrite() || request.shape == ReplyShape::Anyone || result.replies.empty() || !result.replies.front())
         return;
     const Reply &first = *result.replies.front();
@@ -204,7 +186,7 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
     if (first.bytes == 0 || cut || ambiguous)
         return;
     const std::size_t bytes = request.shape == ReplyShape::Fast ? request.maximumReplySize() : first.bytes;
-    m_timing.learn(first.id, first.at - times(bytes, byteTime) - sent - traits(first.id).returnDelay);
+    m_timing.learn(first.id, first.at - timing::times(bytes, byteTime) - sent - traits(first.id).returnDelay);
 }
 
 /// Nothing that belongs to an earlier request may be taken for the answer to the next one.
@@ -313,82 +295,6 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
             waiting.origin = std::max(waiting.origin, *turnAt);
     }
     return {};
-}
-
-/// However it babbles: no exchange takes longer.
-LineTime Bus::longestWait(const Request &request, const Waiting &waiting) const
-{
-    const Line &line = m_channel.line();
-    const LineTime longest = times(request.maximumReplySize(), line.byteTime());
-    const LineTime each = timing::silence(line) + timing::processing(request.packet.instruction) + 1ms;
-    LineTime hosts = request.replies.empty() ? line.hostAllowance() : LineTime();
-    for (const ExpectedReply &reply : request.replies)
-        hosts += m_timing.allowance(reply.id, line.hostAllowance());
-    const LineTime turns =
-        request.shape == ReplyShape::Anyone ? (waiting.highestId + 1) * timing::SlotOfBroadcastPing : LineTime();
-    return waiting.origin + 2 * longest + turns + hosts + times(std::max<std::size_t>(1, request.replies.size()), each);
-}
-
-/// How much later than its registers say the next answer is waited for.
-LineTime Bus::allowance(const Request &request) const
-{
-    const LineTime host = m_channel.line().hostAllowance();
-    if (request.replies.empty())
-        return host;
-    return m_timing.allowance(request.replies[m_collector.position()].id, host);
-}
-
-/// Reference "Time": return delay, processing and host from the end of the request, or of the predecessor's packet.
-LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
-{
-    const LineTime processing = timing::processing(request.packet.instruction);
-    if (request.shape == ReplyShape::None)
-        return waiting.origin + allowance(request) + processing;
-    if (request.shape == ReplyShape::Anyone) {
-        // Behind the answer of one ID come the slots of those above it. The last of them may hold an answer.
-        const LineTime answer = Traits().returnDelay + times(timing::largestStatus(3), m_channel.line().byteTime());
-        const auto heard = static_cast<LineTime::rep>(m_collector.answers());
-        const LineTime all = waiting.sent + (waiting.highestId + 1 - heard) * timing::SlotOfBroadcastPing;
-        const LineTime rest =
-            waiting.origin + (waiting.highestId - m_collector.lastId()) * timing::SlotOfBroadcastPing;
-        const LineTime longest = all + heard * (timing::SlotOfBroadcastPing + answer);
-        return std::clamp(rest, all, longest) + allowance(request) + processing + answer;
-    }
-    const std::uint8_t next = request.replies[m_collector.position()].id;
-    const LineTime firstByte = 2 * m_channel.line().byteTime();
-    // Nothing is expected of a device that is told to be silent: no need to wait until it has written its EEPROM.
-    return waiting.origin + allowance(request) + traits(next).returnDelay + firstByte
-        + (isMute(request, next) ? timing::processing(Instruction::Read) : processing);
-}
-
-/// Will this device keep silent about this request, by its Status Return Level?
-bool Bus::isMute(const Request &request, std::uint8_t id) const
-{
-    return request.isWrite() && traits(id).statusReturnLevel < 2;
-}
-
-/// Is this a Read of a device that answers none, by its Status Return Level?
-bool Bus::isSilenced(const Request &request) const
-{
-    return request.packet.instruction == Instruction::Read && traits(request.replies.front().id).statusReturnLevel < 1;
-}
-
-/// At a low Status Return Level silence is what was to be expected.
-void Bus::explainSilence(const Request &request, ExchangeResult &result) const
-{
-    if (request.packet.instruction == Instruction::Ping)
-        return;
-    for (std::size_t i = 0; i < result.replies.size(); ++i) {
-        Result<Reply> &reply = result.replies[i];
-        if (reply || (reply.error().kind != ErrorKind::NothingReceived && reply.error().kind != ErrorKind::LateAnswer))
-            continue;
-        const std::uint8_t id = request.replies[i].id;
-        const int level = traits(id).statusReturnLevel;
-        if (isMute(request, id))
-            reply = Reply{id, DeviceError::None, false, {}, m_channel.now()};
-        else if (level < 1)
-            reply = tl::unexpected(messages::silentByLevel(id, level));
-    }
 }
 
 std::vector<std::uint8_t> Bus::alive() const

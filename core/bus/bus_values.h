@@ -16,6 +16,12 @@ struct Reply {
     std::size_t bytes = 0; ///< on the wire; 0 where nothing was to come by its Status Return Level
 };
 
+/// Did no answer come? A refusal is one.
+inline bool isMissing(const Result<Reply> &reply)
+{
+    return !reply && reply.error().kind != ErrorKind::Refused;
+}
+
 /// What the line did during one exchange, for messages and statistics.
 struct Observations {
     std::size_t bytesReceived = 0;
@@ -38,6 +44,9 @@ struct ExchangeResult {
     std::vector<Result<Reply>> replies; ///< errors name the device and what was seen
     int brokenAt = -1;                  ///< index of the reply at which a chain of replies broke; -1: it didn't
     Observations seen;
+
+    /// Not heard on account of the one that broke the chain before it: says nothing of this device.
+    bool isHidden(std::size_t index) const { return brokenAt >= 0 && static_cast<int>(index) > brokenAt; }
 };
 
 /// Counts since the line was opened.

@@ -137,8 +137,7 @@ void Collector::takeStatus(const Parser::Packet &status, LineTime at)
     }
     if (isDoubtful(*slot, status, at))
         return;
-    const bool isError = (status.errorField & ~AlertBit) != 0;
-    if (!isError && status.parameters.size() != slot->expected.length) {
+    if (!status.isError() && status.parameters.size() != slot->expected.length) {
         slot->length = status.parameters.size(); // the right one may follow
         pass(*slot, Slot::State::WrongLength, at);
         return;
@@ -174,22 +173,21 @@ void Collector::pass(Slot &slot, Slot::State state, LineTime at)
 /// what one to this says; but it proves nothing of what else is under way.
 bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at)
 {
-    const bool isError = (status.errorField & ~AlertBit) != 0;
     const std::size_t length = status.parameters.size();
     if (m_foreign.test(status.id)) {
         if (slot.state == Slot::State::Open)
             slot.state = Slot::State::Doubtful;
         return true;
     }
-    if (!m_late.couldBe(status.id, length, isError)) {
-        if (isError || length == slot.expected.length)
+    if (!m_late.couldBe(status.id, length, status.isError())) {
+        if (status.isError() || length == slot.expected.length)
             m_late.clear(status.id, at);
         return false;
     }
-    if (m_request->packet.instruction == Instruction::Ping && !isError && length == slot.expected.length
+    if (m_request->packet.instruction == Instruction::Ping && !status.isError() && length == slot.expected.length
         && !m_late.couldFakePing(status.id))
         return false;
-    if (!isError && length != slot.expected.length)
+    if (!status.isError() && length != slot.expected.length)
         m_belated.push_back({status.id, at - m_late.originOf(status.id, length).value_or(at)});
     if (slot.state == Slot::State::Open)
         slot.state = Slot::State::Doubtful;
@@ -199,8 +197,7 @@ bool Collector::isDoubtful(Slot &slot, const Parser::Packet &status, LineTime at
 
 void Collector::takeAnyone(const Parser::Packet &status, LineTime at)
 {
-    const bool isError = (status.errorField & ~AlertBit) != 0;
-    const bool isAnswer = !isError && status.parameters.size() == PingReplyLength && !m_late.couldFakePing(status.id);
+    const bool isAnswer = !status.isError() && status.parameters.size() == PingReplyLength && !m_late.couldFakePing(status.id);
     if (!isAnswer || slotOf(status.id)) {
         stray(status, at); // a second answer under one ID: two devices share it
         return;

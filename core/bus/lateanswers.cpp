@@ -6,12 +6,6 @@
 #include <algorithm>
 
 namespace dynascope {
-namespace {
-
-constexpr std::size_t PingLength = PingReplyLength;
-
-} // namespace
-
 void LateAnswers::add(const Entry &entry)
 {
     const auto same = std::ranges::find_if(m_entries, [&](const Entry &other) {
@@ -53,9 +47,6 @@ void LateAnswers::forgetOld(LineTime now)
 
 void LateAnswers::addMissing(const Request &request, const ExchangeResult &result, LineTime origin)
 {
-    const auto isMissing = [](const Result<Reply> &reply) {
-        return !reply && reply.error().kind != ErrorKind::Refused;
-    };
     if (request.shape == ReplyShape::Fast) {
         if (std::ranges::any_of(result.replies, isMissing))
             add({BroadcastId, request.maximumReplySize(), Entry::Kind::Fast, origin, origin});
@@ -71,7 +62,7 @@ void LateAnswers::addMissing(const Request &request, const ExchangeResult &resul
 
 void LateAnswers::addPings(LineTime origin)
 {
-    add({BroadcastId, PingLength, Entry::Kind::Ping, origin, origin});
+    add({BroadcastId, PingReplyLength, Entry::Kind::Ping, origin, origin});
 }
 
 void LateAnswers::addAll(const Request &request, LineTime origin)
@@ -96,20 +87,22 @@ bool LateAnswers::couldBe(std::uint8_t id, std::size_t length, bool isError) con
 
 bool LateAnswers::couldBePing(std::uint8_t id) const
 {
-    return couldBe(id, PingLength, false);
+    return couldBe(id, PingReplyLength, false);
 }
 
 bool LateAnswers::couldFakePing(std::uint8_t id) const
 {
     return std::ranges::any_of(m_entries, [id](const Entry &entry) {
-        return entry.kind == Entry::Kind::Plain && entry.id == id && entry.length == PingLength;
+        return entry.kind == Entry::Kind::Plain && entry.id == id && entry.length == PingReplyLength;
     });
 }
 
 bool LateAnswers::couldBeFast(std::size_t packetSize) const
 {
     return std::ranges::any_of(
-        m_entries, [packetSize](const Entry &entry) { return entry.kind == Entry::Kind::Fast && entry.length == packetSize; });
+        m_entries, [packetSize](const Entry &entry) {
+            return entry.kind == Entry::Kind::Fast && entry.length == packetSize;
+        });
 }
 
 bool LateAnswers::concern(const Request &request) const
@@ -128,7 +121,7 @@ std::uint16_t LateAnswers::distinctLength(std::uint8_t id) const
 {
     constexpr std::uint16_t Largest = 140; // nearly every table is longer; where it isn't, the refusal is no answer
     for (std::uint16_t length = 2; length <= Largest; ++length) {
-        if (length != PingLength && !couldBe(id, length, false))
+        if (length != PingReplyLength && !couldBe(id, length, false))
             return length;
     }
     return 0;
@@ -136,8 +129,9 @@ std::uint16_t LateAnswers::distinctLength(std::uint8_t id) const
 
 std::optional<LineTime> LateAnswers::originOf(std::uint8_t id, std::size_t length) const
 {
-    const auto entry = std::ranges::find_if(
-        m_entries, [&](const Entry &other) { return other.kind != Entry::Kind::Fast && other.id == id && other.length == length; });
+    const auto entry = std::ranges::find_if(m_entries, [&](const Entry &other) {
+        return other.kind != Entry::Kind::Fast && other.id == id && other.length == length;
+    });
     if (entry == m_entries.end())
         return std::nullopt;
     return entry->origin;

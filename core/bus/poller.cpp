@@ -246,7 +246,7 @@ void Poller::takeFailure(const Step &step, std::size_t place, int pass)
     const std::size_t span = step.spans[place];
     const std::uint8_t id = m_plan.spans[span].span.id;
     const bool lastPass = pass == Passes;
-    if (m_result.brokenAt >= 0 && static_cast<int>(place) > m_result.brokenAt) {
+    if (m_result.isHidden(place)) {
         if (!lastPass)
             m_again.push_back(span);
         return;

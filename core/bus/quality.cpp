@@ -153,7 +153,7 @@ void QualityLog::count(const Request &request, const ExchangeResult &result, Lin
             continue;
         }
         whole = false;
-        if (result.brokenAt >= 0 && static_cast<int>(i) > result.brokenAt)
+        if (result.isHidden(i))
             continue; // hidden by another one's silence
         switch (reply.error().kind) {
         case ErrorKind::Refused:

@@ -24,7 +24,7 @@ Remainder remainderOf(const Request &request, const ExchangeResult &result)
 {
     Remainder rest;
     for (std::size_t i = 0; i < result.replies.size(); ++i) {
-        if (!result.replies[i] && result.replies[i].error().kind != ErrorKind::Refused)
+        if (isMissing(result.replies[i]))
             rest.indices.push_back(i);
     }
     if (rest.indices.empty())

@@ -39,7 +39,7 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
     const quint64 before = bus.statistics().bytesReceived;
     if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
         return tl::unexpected(listened.error());
-    const bool more = bus.statistics().bytesReceived != before 
+    const bool more = bus.statistics().bytesReceived != before
         || std::ranges::count(answer->seen.strayIds, found.id) > 0;
     const Result<Reply> &reply = answer->replies.front();
     if (!reply && answer->seen.bytesReceived > 0)

@@ -1,6 +1,7 @@
 target_sources(dynascope_core PRIVATE
     bus/bus.cpp bus/bus.h bus/bus_values.h
     bus/busthread.cpp bus/busthread.h
+    bus/buswaiting.cpp bus/buswaiting.h
     bus/busworker.cpp bus/busworker.h
     bus/channel.cpp bus/channel.h
     bus/collector.cpp bus/collector.h

@@ -11,6 +11,11 @@ namespace dynascope::timing {
 constexpr LineTime SlotOfBroadcastPing = std::chrono::milliseconds(3); ///< of an absent lower ID
 constexpr LineTime Slice = std::chrono::milliseconds(1);               ///< longest wait without a look at the stop flag
 
+constexpr LineTime times(std::size_t count, LineTime each)
+{
+    return static_cast<LineTime::rep>(count) * each;
+}
+
 /// From the end of a request to the begin of its reply, return delay not counted. EEPROM writes take tens of
 /// milliseconds, Clear and Backup up to seconds.
 LineTime processing(Instruction instruction);

@@ -29,6 +29,8 @@ public:
         ByteView raw;                ///< as it stood on the wire
 
         bool isStatus() const { return instruction == Instruction::Status; }
+        /// Of an ordinary status packet: an error number stands in it; Alert is none.
+        bool isError() const { return (errorField & ~AlertBit) != 0; }
         bool isFastStatus() const { return isStatus() && id == BroadcastId; }
         StatusPacket status() const;
         InstructionPacket request() const { return {id, instruction, Bytes(parameters.begin(), parameters.end())}; }

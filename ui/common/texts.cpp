@@ -18,8 +18,9 @@ class Texts
     Q_DECLARE_TR_FUNCTIONS(Texts)
 };
 
-/// Thousands set apart by a thin space, which doesn't depend on the locale.
-QString grouped(int number)
+} // namespace
+
+QString grouped(quint64 number)
 {
     QString text = QString::number(number);
     for (qsizetype at = text.size() - 3; at > 0; at -= 3)
@@ -27,13 +28,11 @@ QString grouped(int number)
     return text;
 }
 
-} // namespace
-
 QString baudText(int bitsPerSecond)
 {
     if (bitsPerSecond >= 1'000'000 && bitsPerSecond % 100'000 == 0)
         return Texts::tr("%1 Mbps").arg(bitsPerSecond / 1e6, 0, 'g', 4);
-    return Texts::tr("%1 bps").arg(grouped(bitsPerSecond));
+    return Texts::tr("%1 bps").arg(grouped(static_cast<quint64>(bitsPerSecond)));
 }
 
 QString agoText(LineTime at)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/health/healthtexts.h"
 
+#include "ui/common/texts.h"
+
 #include <QCoreApplication>
 
 namespace dynascope {
@@ -11,15 +13,6 @@ class HealthTexts
 {
     Q_DECLARE_TR_FUNCTIONS(HealthTexts)
 };
-
-/// Thousands set apart by a thin space, which doesn't depend on the locale.
-QString grouped(quint64 number)
-{
-    QString text = QString::number(number);
-    for (qsizetype at = text.size() - 3; at > 0; at -= 3)
-        text.insert(at, QChar(0x2009));
-    return text;
-}
 
 /// Nobody needs the last digit of many.
 QString compact(quint64 number)
