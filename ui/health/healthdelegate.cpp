@@ -7,6 +7,8 @@
 #include "ui/health/healthmodel.h"
 #include "ui/table/cellpainter.h"
 
+#include <QPainter>
+
 #include <algorithm>
 #include <cmath>
 
