@@ -159,7 +159,7 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
 void Bus::remember(const Request &request, const ExchangeResult &result, LineTime sent)
 {
     const bool anyLost = std::ranges::any_of(result.replies, isMissing);
-    if (anyLost && !isSilenced(request))
+    if (!isSilenced(request))
         m_late.addMissing(request, result, sent);
     for (std::size_t i = 0; i < result.replies.size() && i < request.replies.size(); ++i) {
         if (isMissing(result.replies[i]) && !result.isHidden(i))

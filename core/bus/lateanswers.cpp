@@ -6,6 +6,17 @@
 #include <algorithm>
 
 namespace dynascope {
+
+namespace {
+
+/// Missing, or taken as done because the device is thought to be mute: it may speak all the same.
+bool isOpen(const Result<Reply> &reply)
+{
+    return isMissing(reply) || (reply && reply->bytes == 0);
+}
+
+} // namespace
+
 void LateAnswers::add(const Entry &entry)
 {
     const auto same = std::ranges::find_if(m_entries, [&](const Entry &other) {
@@ -54,7 +65,7 @@ void LateAnswers::addMissing(const Request &request, const ExchangeResult &resul
     }
     // Those before the last one heard won't come any more: the answers of one request keep their order, too.
     std::size_t open = result.replies.size();
-    while (open > 0 && isMissing(result.replies[open - 1]))
+    while (open > 0 && isOpen(result.replies[open - 1]))
         --open;
     for (std::size_t i = open; i < request.replies.size() && i < result.replies.size(); ++i)
         add(entryFor(request, request.replies[i], origin));

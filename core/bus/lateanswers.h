@@ -24,7 +24,7 @@ public:
     static constexpr LineTime Longest = std::chrono::seconds(10);
     void forgetOld(LineTime now);
 
-    /// What of `result` is missing may still come. `origin` is from when on it could be awaited.
+    /// What of `result` is missing, or was not said by a device thought to be mute, may still come. `origin` is from when on it could be awaited.
     void addMissing(const Request &request, const ExchangeResult &result, LineTime origin);
     /// Whoever is there may still answer a broadcast Ping.
     void addPings(LineTime origin);

@@ -245,6 +245,39 @@ private slots:
             QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
     }
 
+    // Its level was set by somebody else, say: it does answer, and late.
+    void whatAMuteDeviceSaysIsNotTheNextWritesAnswer_data()
+    {
+        QTest::addColumn<int>("nextLevel");
+        QTest::newRow("still believed mute") << 1;
+        QTest::newRow("known to answer") << 2;
+    }
+    void whatAMuteDeviceSaysIsNotTheNextWritesAnswer()
+    {
+        QFETCH(int, nextLevel);
+        constexpr std::uint8_t DataLimit = 6;
+        for (LineTime late = 1ms; late < 40ms; late += 137us) {
+            FakeLine line;
+            line.handler = [&](const Bytes &request) -> FakeLine::Answer {
+                if (request[7] == 1)
+                    return {{500us, oracle::status(3, 0, {6, 4, 38})}};
+                const bool first = line.sent.size() == 1;
+                return {{first ? late : LineTime(500us), oracle::status(3, first ? DataLimit : 0, {})}};
+            };
+            Traits traits;
+            traits.id = 3;
+            traits.statusReturnLevel = 1;
+            Bus bus(line);
+            bus.setTraits({traits});
+            (void)bus.exchange(writeRequest({3, 64, {9}}), 0);
+            traits.statusReturnLevel = static_cast<std::uint8_t>(nextLevel);
+            bus.setTraits({traits});
+            const auto second = bus.exchange(writeRequest({3, 64, {1}}), 0);
+            const Result<Reply> &reply = second->replies.front();
+            QVERIFY2(reply || reply.error().kind != ErrorKind::Refused, qPrintable(QString::number(late.count())));
+        }
+    }
+
     void stopEndsAnExchangeAtOnce()
     {
         FakeLine line;
