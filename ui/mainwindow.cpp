@@ -167,9 +167,6 @@ void MainWindow::connectDevices()
     connect(m_devices, &DevicePanel::message, this, inform);
     connect(m_table, &TablePanel::message, this, inform);
     connect(m_plots, &PlotArea::message, this, inform);
-    connect(&m_workbench.session, &Session::deviceAdded, this, &MainWindow::countDevices);
-    connect(
-        &m_workbench.session, &Session::deviceAboutToBeRemoved, this, &MainWindow::countDevices, Qt::QueuedConnection);
 }
 
 void MainWindow::connectPlots()
@@ -224,7 +221,6 @@ void MainWindow::onLines()
             m_welcome->setFocus();
     }
     setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
-    countDevices();
 }
 
 void MainWindow::onSelection()
@@ -237,17 +233,6 @@ void MainWindow::onSelection()
     m_table->setDevices(devices);
     m_workbench.monitor.select(devices);
     m_firstRead->show(devices);
-}
-
-void MainWindow::countDevices()
-{
-    int present = 0;
-    int parked = 0;
-    if (const LineSession *line = m_bar->currentLine()) {
-        for (const auto &device : line->devices())
-            ++(device->baudRate() == line->baudRate() ? present : parked);
-    }
-    m_status->setDeviceCount(present, parked);
 }
 
 void MainWindow::focusPane(int pane)

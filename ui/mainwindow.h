@@ -58,7 +58,6 @@ private:
     void connectPlots();
     void onSelection();
     void onLines();
-    void countDevices();
     void focusPane(int pane);
     void restoreParts();
     void saveParts() const;

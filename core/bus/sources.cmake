@@ -5,6 +5,7 @@ target_sources(dynascope_core PRIVATE
     bus/busworker.cpp bus/busworker.h
     bus/channel.cpp bus/channel.h
     bus/collector.cpp bus/collector.h
+    bus/cyclelimit.cpp bus/cyclelimit.h
     bus/jobcontext.h
     bus/jobqueue.cpp bus/jobqueue.h
     bus/lateanswers.cpp bus/lateanswers.h

@@ -154,8 +154,12 @@ void Commands::readAll(Device &device, Done done)
     ReadSpansPlan plan{placeOf(device), spansOf(device, [](const Field &) { return true; })};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Normal, this, [plan = std::move(plan)](JobContext &context) { return readSpans(context, plan); },
-        [this, key = device.key(), done = std::move(done)](const Result<std::vector<PollValue>> &values) {
+        [this, key = device.key(), from = std::pair(device.id(), device.baudRate()), done = std::move(done)](
+            const Result<std::vector<PollValue>> &values) {
             Device *present = m_session.device(key);
+            const bool hasMoved = present && from != std::pair(present->id(), present->baudRate());
+            if (!values && hasMoved && present->line()->state() == BusThread::State::Open)
+                return readAll(*present, done); // the job was made before its ID or baud rate changed
             if (!values)
                 return refuse(present, values.error(), done);
             if (present) {

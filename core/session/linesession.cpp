@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/linesession.h"
 
+#include "core/bus/cyclelimit.h"
 #include "core/table/catalog.h"
 
 #include <algorithm>
@@ -67,6 +68,7 @@ void LineSession::startThread(const QString &name, int baudRate)
     closeThread();
     m_thread.reset();
     ++m_generation;
+    m_plan = {};
     m_thread = std::make_unique<BusThread>(m_factory, name, baudRate);
     m_sinceMeasured.start();
     m_busyAtMeasure = {};
@@ -89,6 +91,7 @@ void LineSession::onThreadState()
 {
     if (state() != BusThread::State::Open) {
         m_cycleRate = 0;
+        m_possibleRate = 0;
         m_busLoad = 0;
         for (const auto &device : m_devices)
             device->setAllStale();
@@ -180,6 +183,12 @@ void LineSession::forget(DeviceKey key)
     m_devices.erase(at);
 }
 
+void LineSession::setPollPlan(PollPlan plan)
+{
+    m_plan = plan;
+    m_thread->setPollPlan(std::move(plan));
+}
+
 void LineSession::setWorkingBaudRate(int bitsPerSecond)
 {
     m_thread->setWorkingBaudRate(bitsPerSecond);
@@ -233,6 +242,7 @@ void LineSession::measureRates()
     const LineTime busy = m_thread->statistics().busy;
     m_busLoad = std::clamp(std::chrono::duration<double>(busy - m_busyAtMeasure).count() / seconds, 0.0, 1.0);
     m_cycleRate = m_fullRateCycles / seconds;
+    m_possibleRate = possibleCycleRate(m_plan, baudRate());
     m_busyAtMeasure = busy;
     m_fullRateCycles = 0;
     m_sinceMeasured.restart();

@@ -43,11 +43,15 @@ public:
     /// The same device now stands elsewhere: ID or baud rate changed, or it was reset.
     void moveDevice(Device &device, const Found &found);
     void forget(DeviceKey key);
+    /// What the bus thread polls from now on; a new one, after reopen(), polls nothing.
+    void setPollPlan(PollPlan plan);
     /// The line itself moves; devices elsewhere are parked.
     void setWorkingBaudRate(int bitsPerSecond);
 
     /// Full-rate cycles a second over the last second; 0 while nothing is watched at full rate.
     double cycleRate() const { return m_cycleRate; }
+    /// What the wire would allow for the same; see possibleCycleRate().
+    double possibleRate() const { return m_possibleRate; }
     double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second spent in exchanges
     LineHealth &health() { return m_health; }
 
@@ -84,7 +88,9 @@ private:
     QElapsedTimer m_sinceMeasured;
     int m_fullRateCycles = 0;
     LineTime m_busyAtMeasure{};
+    PollPlan m_plan;
     double m_cycleRate = 0;
+    double m_possibleRate = 0;
     double m_busLoad = 0;
 };
 

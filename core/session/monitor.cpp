@@ -125,7 +125,7 @@ void Monitor::replan()
         if (plan == sent.plan)
             continue;
         sent.plan = plan;
-        line->bus().setPollPlan(std::move(plan));
+        line->setPollPlan(std::move(plan));
     }
 }
 

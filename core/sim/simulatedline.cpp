@@ -8,7 +8,7 @@ namespace {
 
 tl::unexpected<Error> portLost()
 {
-    return failure(ErrorKind::PortLost, QStringLiteral("The simulated adapter was unplugged"));
+    return failure(ErrorKind::PortLost, QStringLiteral("the simulated adapter is gone: unplugged"));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/cyclelimit.h"
 #include "core/bus/operations.h"
 #include "core/bus/poller.h"
 #include "core/sim/servo.h"
@@ -151,6 +152,31 @@ private slots:
         const double part = efficiency(m_catalog, servos == 1 ? Kind::Single : kind, servos, baudRate);
         qInfo("%.4f of what the wire allows", part);
         QVERIFY2(part >= 0.98 && part <= 1.02, qPrintable(QString::number(part)));
+    }
+
+    /// What the status bar calls possible is what the formulas say.
+    void thePossibleRate_data() { cycle_data(); }
+    void thePossibleRate()
+    {
+        QFETCH(Kind, kind);
+        QFETCH(int, baudRate);
+        QFETCH(int, servos);
+        World world(m_catalog, kind, servos, baudRate);
+        const LineTime limit = limitOf(servos == 1 ? Kind::Single : kind, servos, world.line.byteTime());
+        const double wanted = 1 / std::chrono::duration<double>(limit).count();
+        const double rate = possibleCycleRate(world.plan, baudRate);
+        QVERIFY2(std::abs(rate / wanted - 1) < 0.01, qPrintable(QStringLiteral("%1, not %2").arg(rate).arg(wanted)));
+
+        PollPlan plan = world.plan; // and as much ten times a second, and with slower devices
+        for (const PollSpan &span : world.plan.spans)
+            plan.spans.push_back({span.device, {span.span.id, 146, 1}, 100ms});
+        QVERIFY(possibleCycleRate(plan, baudRate) < rate);
+        plan = world.plan;
+        plan.traits.front().returnDelay = 500us;
+        const double slower = 1 / (1 / rate + 500e-6);
+        QVERIFY(std::abs(possibleCycleRate(plan, baudRate) / slower - 1) < 0.01);
+        plan.spans.clear();
+        QCOMPARE(possibleCycleRate(plan, baudRate), 0.0);
     }
 
     void aNeedlessWaitShows()

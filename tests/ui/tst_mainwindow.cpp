@@ -212,10 +212,10 @@ private slots:
         QVERIFY(messages->text().isEmpty()); // the table shows it
         device->setFailed(3, error.text);
         emit m_bench->commands.failed(device, error); // another thing, which failed the same way
-        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer"));
         messages->clear();
         emit m_bench->commands.failed(m_bench->device(4, 1000000), error, 3); // not the one shown
-        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer."));
+        QCOMPARE(messages->text(), QStringLiteral("ID 1 did not answer"));
     }
 
     void whatComesBackIsReadAgain()

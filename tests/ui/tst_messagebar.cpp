@@ -2,6 +2,7 @@
 #include "tests/support/uitest.h"
 #include "ui/common/messagebar.h"
 
+#include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
 
@@ -47,6 +48,37 @@ private slots:
         QCOMPARE(bar.text(), QStringLiteral("d")); // the newest of those that waited
         bar.dismiss();
         QVERIFY(bar.isHidden());
+    }
+
+    void theNewestOfATopicReplacesWhatWasSaidBefore()
+    {
+        MessageBar bar;
+        bar.post({MessageKind::Error, QStringLiteral("it failed"), {}, {}, QStringLiteral("device 1")});
+        bar.post({MessageKind::Success, QStringLiteral("another's success"), {}, {}, QStringLiteral("device 2")});
+        QCOMPARE(bar.text(), QStringLiteral("it failed"));
+        bar.post({MessageKind::Success, QStringLiteral("it worked"), {}, {}, QStringLiteral("device 1")});
+        QCOMPARE(bar.text(), QStringLiteral("it worked"));
+        bar.post({MessageKind::Error, QStringLiteral("it failed"), {}, {}, QStringLiteral("device 2")});
+        QCOMPARE(bar.text(), QStringLiteral("it failed"));
+        bar.dismiss();
+        QVERIFY(bar.isHidden()); // what waited of device 2 is outdated
+    }
+
+    void showsSentences_data()
+    {
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<QString>("shown");
+        QTest::newRow("words") << QStringLiteral("device 1 did not answer") << QStringLiteral("Device 1 did not answer.");
+        QTest::newRow("sentence") << QStringLiteral("Is it powered?") << QStringLiteral("Is it powered?");
+        QTest::newRow("path") << QStringLiteral("/dev/ttyUSB0 is busy") << QStringLiteral("/dev/ttyUSB0 is busy.");
+        QTest::newRow("address") << QStringLiteral("tcp://h:1 is gone.") << QStringLiteral("tcp://h:1 is gone.");
+    }
+    void showsSentences()
+    {
+        QFETCH(QString, text);
+        MessageBar bar;
+        bar.post(MessageKind::Warning, text);
+        QTEST(bar.findChild<QLabel *>(QStringLiteral("messageText"))->text(), "shown");
     }
 
     void actionRunsOnceAndCloses()

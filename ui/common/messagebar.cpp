@@ -2,6 +2,7 @@
 #include "ui/common/messagebar.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <QAccessible>
@@ -111,7 +112,12 @@ void MessageBar::post(Message message)
             m_hideTimer.start();
         return;
     }
-    if (m_dismissable && m_current && message.kind < m_current->kind) {
+    const auto isAbout = [&message](const std::optional<Message> &other) {
+        return other && !message.topic.isEmpty() && other->topic == message.topic;
+    };
+    if (isAbout(m_waiting))
+        m_waiting.reset();
+    if (m_dismissable && m_current && message.kind < m_current->kind && !isAbout(m_current)) {
         m_waiting = std::move(message);
         return;
     }
@@ -140,7 +146,8 @@ void MessageBar::show(Message message)
 
 void MessageBar::updateText()
 {
-    const QString text = m_count > 1 ? tr("%1 (%2 times)").arg(m_current->text).arg(m_count) : m_current->text;
+    const QString text =
+        asSentence(m_count > 1 ? tr("%1 (%2 times)").arg(m_current->text).arg(m_count) : m_current->text);
     m_label->setText(text);
     m_label->setAccessibleName(text);
     QAccessibleEvent event(m_label, QAccessible::NameChanged);

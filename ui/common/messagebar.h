@@ -20,10 +20,12 @@ struct Message {
     QString text;
     QString actionText;           ///< empty: no button
     std::function<void()> action; ///< called on the GUI thread; the bar closes then
+    QString topic{};                ///< what it is about: the newest of a topic replaces those before it, whatever their rank
 };
 
 /// One line above the work area: icon, text, perhaps one button. Shows the message that matters most; one of lower rank
-/// waits behind it, and only the newest of those. The same text again counts up. Success and info go by themselves.
+/// waits behind it, and only the newest of those. The same text again counts up. Success and info go by themselves. Texts
+/// may begin in lower case and end without a full stop.
 class MessageBar : public QFrame
 {
     Q_OBJECT

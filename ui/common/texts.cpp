@@ -28,6 +28,19 @@ QString grouped(quint64 number)
     return text;
 }
 
+QString asSentence(QString text)
+{
+    const QString ends = QStringLiteral(".?!…");
+    if (text.isEmpty())
+        return text;
+    if (!ends.contains(text.back()))
+        text += u'.';
+    const bool isAddress = text.section(u' ', 0, 0).contains(QStringLiteral("://"));
+    if (!isAddress)
+        text.front() = text.front().toUpper();
+    return text;
+}
+
 QString baudText(int bitsPerSecond)
 {
     if (bitsPerSecond >= 1'000'000 && bitsPerSecond % 100'000 == 0)

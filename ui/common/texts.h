@@ -7,6 +7,8 @@ namespace dynascope {
 
 /// Thousands set apart by a thin space, which doesn't depend on the locale.
 QString grouped(quint64 number);
+/// What was seen, as a sentence to show: a capital (not of a port's name) and a full stop.
+QString asSentence(QString text);
 QString baudText(int bitsPerSecond);    ///< "57 600 bps", "1 Mbps"
 QString agoText(LineTime at);           ///< "just now", "3 min ago"; since the monotonic clock's `at`
 QString portText(const QString &name);  ///< "Simulated bus" for "sim", else the name

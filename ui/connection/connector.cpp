@@ -19,6 +19,17 @@ const QString PortKey = QStringLiteral("connection/port");
 const QString RecentKey = QStringLiteral("connection/recent");
 const QString ReopenKey = QStringLiteral("connection/reopen");
 
+/// What was said last of a port outdates what was said before it.
+QString portTopic(const LineSession &line)
+{
+    return QStringLiteral("port ") + line.name();
+}
+
+QString scanTopic(const LineSession &line)
+{
+    return QStringLiteral("scan ") + line.name();
+}
+
 /// A path has slashes, which would make groups of settings.
 QString baudKey(const QString &port)
 {
@@ -33,8 +44,8 @@ Connector::Connector(const Workbench &workbench, QObject *parent)
     m_reopener.setAutomatic(isReopening());
     connect(&m_reopener, &Reopener::portsChanged, this, &Connector::portsChanged);
     connect(&m_reopener, &Reopener::lineBack, this, &Connector::onBack);
-    connect(&m_reopener, &Reopener::lineRefused, this, [this](LineSession *, const Error &why) {
-        emit posted({MessageKind::Warning, why.text, {}, {}});
+    connect(&m_reopener, &Reopener::lineRefused, this, [this](LineSession *line, const Error &why) {
+        emit posted({MessageKind::Warning, why.text, {}, {}, portTopic(*line)});
     });
     connect(&workbench.session, &Session::lineAdded, this, &Connector::follow);
     connect(&workbench.session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
@@ -56,7 +67,7 @@ LineSession *Connector::line(const QString &port) const
 void Connector::connectTo(const QString &port, int baudRate)
 {
     if (port.isEmpty()) {
-        emit posted({MessageKind::Warning, tr("Choose a port first"), {}, {}});
+        emit posted({MessageKind::Info, tr("Choose a port first"), {}, {}});
         return;
     }
     LineSession *present = line(port);
@@ -88,7 +99,7 @@ void Connector::reconnect(LineSession &line)
         if (where)
             disconnectFrom(*where);
     };
-    emit posted({MessageKind::Warning, asked.error().text, tr("Disconnect"), giveUp});
+    emit posted({MessageKind::Warning, asked.error().text, tr("Disconnect"), giveUp, portTopic(line)});
 }
 
 void Connector::scan(LineSession &line, const ScanRange &range)
@@ -131,7 +142,7 @@ void Connector::onOpen(LineSession *line)
         emit retracted(refused);
     if (m_lost.contains(line)) {
         emit retracted(m_lost.take(line));
-        emit posted({MessageKind::Success, tr("%1 is back").arg(portText(line->name())), {}, {}});
+        emit posted({MessageKind::Success, tr("%1 is back").arg(portText(line->name())), {}, {}, portTopic(*line)});
     }
     if (m_opened.contains(line))
         return;
@@ -146,14 +157,14 @@ void Connector::onLost(LineSession *line)
     if (m_lost.contains(line))
         return;
     const QString why = line->bus().error().text;
-    const QString text =
-        (m_reopener.isAutomatic() ? tr("%1 is gone%2. It is opened again when it comes back.") : tr("%1 is gone%2."))
-            .arg(portText(line->name()), why.isEmpty() ? QString() : QStringLiteral(" (%1)").arg(why));
+    QString text = asSentence(why.isEmpty() ? tr("%1 is gone").arg(portText(line->name())) : why);
+    if (m_reopener.isAutomatic())
+        text += u' ' + tr("It is opened again when it comes back.");
     m_lost.insert(line, text);
     emit posted({MessageKind::Error, text, tr("Reconnect"), [this, where = QPointer<LineSession>(line)] {
                      if (where)
                          reconnect(*where);
-                 }});
+                 }, portTopic(*line)});
 }
 
 void Connector::onRefused(LineSession *line)
@@ -176,7 +187,8 @@ void Connector::onRefused(LineSession *line)
     const QString port = line->name();
     const int baud = line->baudRate();
     m_refused.insert(port, error.text);
-    emit posted({MessageKind::Error, error.text, tr("Try again"), [this, port, baud] { connectTo(port, baud); }});
+    emit posted({MessageKind::Error, error.text, tr("Try again"), [this, port, baud] { connectTo(port, baud); },
+                 portTopic(*line)});
 }
 
 void Connector::onScanned(int found, const QString &trouble)
@@ -206,15 +218,16 @@ void Connector::reportScan(int found, const QString &trouble)
         return;
     if (m_workbench.scanner.wasCancelled())
         return; // who did it knows
+    const QString topic = scanTopic(*m_scanned);
     if (!trouble.isEmpty()) {
-        emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}});
+        emit posted({MessageKind::Warning, tr("Scan: %1").arg(trouble), {}, {}, topic});
     } else if (found == 0) {
         const QString port = portText(m_scanned->name());
         emit posted({MessageKind::Warning,
-            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(port), {}, {}});
+            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(port), {}, {}, topic});
     } else {
-        emit posted(
-            {MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {}});
+        emit posted({MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {},
+            topic});
     }
 }
 

@@ -4,16 +4,16 @@
 #include "core/session/commands.h"
 #include "core/session/stopcontrol.h"
 #include "ui/common/messagebar.h"
+#include "ui/common/texts.h"
 
 namespace dynascope {
 
 namespace {
 
-QString sentence(QString text)
+/// A later success of the same device outdates what went wrong before it.
+QString topicOf(const Device *device)
 {
-    if (!text.isEmpty() && !text.endsWith(u'.') && !text.endsWith(u'…') && !text.endsWith(u'?'))
-        text += u'.';
-    return text;
+    return device ? QStringLiteral("device %1").arg(device->key()) : QString();
 }
 
 } // namespace
@@ -27,7 +27,9 @@ Outcomes::Outcomes(const Workbench &workbench, MessageBar &messages, MessageBar 
 {
     connect(&workbench.commands, &Commands::failed, this, &Outcomes::onFailed);
     connect(&workbench.commands, &Commands::succeeded, this,
-            [this](Device *, const QString &what) { m_messages.post(MessageKind::Success, sentence(what)); });
+            [this](Device *device, const QString &what) {
+                m_messages.post({MessageKind::Success, what, {}, {}, topicOf(device)});
+            });
     connect(&workbench.stop, &StopControl::changed, this, &Outcomes::onStop);
     onStop();
 }
@@ -40,7 +42,7 @@ void Outcomes::onFailed(Device *device, const Error &error, int field)
     if (error.kind == ErrorKind::PortLost)
         return; // the line says so itself, once
     const MessageKind kind = error.kind == ErrorKind::Stopped ? MessageKind::Warning : MessageKind::Error;
-    m_messages.post(kind, sentence(error.text));
+    m_messages.post({kind, error.text, {}, {}, topicOf(device)});
 }
 
 void Outcomes::onStop()
@@ -51,7 +53,7 @@ void Outcomes::onStop()
         return;
     }
     const QString text =
-        tr("STOP. %1 Until it is released nothing can be moved from here.").arg(sentence(stop.report()));
+        tr("STOP. %1 Until it is released nothing can be moved from here.").arg(asSentence(stop.report()));
     if (m_stopBar.text() == text)
         return;
     m_stopBar.post({stop.isConfirmed() ? MessageKind::Warning : MessageKind::Error, text, tr("Release STOP"),

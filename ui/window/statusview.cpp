@@ -24,8 +24,9 @@ StatusView::StatusView(QWidget *parent)
     layout->addWidget(m_name, 1);
     m_devices = addFigure(QStringLiteral("statusDevices"), tr("Devices"), QStringLiteral("252 + 252"),
                           tr("Devices at the line's baud rate, and those parked at others"));
-    m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 Hz"),
-                       tr("Poll cycles a second of what is plotted, over the last second"));
+    m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 of 0000 Hz"),
+                       tr("Poll cycles a second of what is plotted, over the last second, of those that the wire allows at "
+                          "this baud rate with these Return Delay Times"));
     m_load = addFigure(QStringLiteral("statusLoad"), tr("Bus load"), QStringLiteral("100 %"),
                        tr("Part of the last second that was spent in exchanges"));
     m_errors = addFigure(QStringLiteral("statusErrors"), tr("Errors"), QStringLiteral("000000"), QString());
@@ -58,13 +59,23 @@ void StatusView::setLine(LineSession *line)
     if (line && m_line != line) {
         connect(line, &LineSession::rateChanged, this, &StatusView::update);
         connect(line, &LineSession::stateChanged, this, &StatusView::update);
+        connect(line, &LineSession::deviceAdded, this, &StatusView::countDevices);
+        connect(line, &LineSession::deviceChanged, this, &StatusView::countDevices);
+        connect(line, &LineSession::deviceLocated, this, &StatusView::countDevices);
+        connect(line, &LineSession::deviceAboutToBeRemoved, this, &StatusView::countDevices, Qt::QueuedConnection);
     }
     m_line = line;
     update();
 }
 
-void StatusView::setDeviceCount(int present, int parked)
+void StatusView::countDevices()
 {
+    int present = 0;
+    int parked = 0;
+    if (m_line) {
+        for (const auto &device : m_line->devices())
+            ++(device->baudRate() == m_line->baudRate() ? present : parked);
+    }
     m_devices->setText(parked > 0 ? QStringLiteral("%1 + %2").arg(present).arg(parked) : QString::number(present));
 }
 
@@ -82,9 +93,14 @@ void StatusView::update()
     m_name->setText(m_line ? QStringLiteral("%1 · %2").arg(portText(m_line->name()), lineStateText(*m_line))
                            : tr("No line is open"));
     const QString none = QStringLiteral("–");
-    m_rate->setText(open && m_line->cycleRate() > 0 ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
+    const bool polls = open && m_line->cycleRate() > 0;
+    if (polls && m_line->possibleRate() >= 1)
+        m_rate->setText(tr("%1 of %2 Hz").arg(qRound(m_line->cycleRate())).arg(qRound(m_line->possibleRate())));
+    else
+        m_rate->setText(polls ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
     m_load->setText(open ? tr("%1 %").arg(qRound(m_line->busLoad() * 100)) : none);
     updateErrors();
+    countDevices();
 }
 
 void StatusView::updateErrors()

@@ -20,7 +20,6 @@ public:
     explicit StatusView(QWidget *parent = nullptr);
 
     void setLine(LineSession *line); ///< nullptr: none
-    void setDeviceCount(int present, int parked);
 
 protected:
     void changeEvent(QEvent *event) override;
@@ -28,6 +27,7 @@ protected:
 private:
     QLabel *addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip);
     void update();
+    void countDevices();
     void updateErrors();
 
     QPointer<LineSession> m_line;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/bus/poll_values.h"
+
+namespace dynascope {
+
+/// Full-rate cycles a second that the wire allows for this plan: bytes at `baudRate`, the Return Delay Times that the
+/// devices have, and the time they take to think, with nothing added by adapter or host; what is read at intervals takes
+/// its part. 0 where nothing is read at full rate, or where the rest leaves no time for it. Pure. Manual: "Protocol
+/// 2.0", status packets and Return Delay Time.
+double possibleCycleRate(const PollPlan &plan, int baudRate);
+
+} // namespace dynascope
