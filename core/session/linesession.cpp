@@ -34,11 +34,11 @@ ControlTablePtr tableOf(const Catalog &catalog, const Found &found)
 } // namespace
 
 LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog,
-                         DeviceKey &nextKey, QObject *parent)
+                         DeviceKeys &keys, QObject *parent)
     : QObject(parent)
     , m_factory(factory)
     , m_catalog(catalog)
-    , m_nextKey(nextKey)
+    , m_keys(keys)
 {
     connect(&m_rateTimer, &QTimer::timeout, this, &LineSession::measureRates);
     m_rateTimer.start(MeasureInterval);
@@ -130,7 +130,7 @@ Device &LineSession::heard(const Found &found)
     if (known) {
         known->setFound(found);
     } else {
-        auto device = std::make_unique<Device>(m_nextKey++, this, tableOf(m_catalog, found), found);
+        auto device = std::make_unique<Device>(m_keys.take(name(), found), this, tableOf(m_catalog, found), found);
         known = device.get();
         connect(known, &Device::attributesChanged, this, [this, known] { emit deviceChanged(known); });
         const auto before = [](const auto &a, const auto &b) {
@@ -179,6 +179,7 @@ void LineSession::forget(DeviceKey key)
     if (at == m_devices.end())
         return;
     emit deviceAboutToBeRemoved(at->get());
+    m_keys.release(name(), **at);
     m_failures.erase(key);
     m_devices.erase(at);
 }

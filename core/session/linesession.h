@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bus/busthread.h"
-#include "core/session/device.h"
+#include "core/session/devicekeys.h"
 #include "core/session/linehealth.h"
 
 #include <QElapsedTimer>
@@ -20,8 +20,8 @@ class LineSession : public QObject
     Q_OBJECT
 
 public:
-    /// `factory`, `catalog` and `nextKey` (where the next device's number comes from) outlive this.
-    LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog, DeviceKey &nextKey,
+    /// `factory`, `catalog` and `keys` outlive this.
+    LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog, DeviceKeys &keys,
                 QObject *parent = nullptr);
     ~LineSession() override;
 
@@ -77,7 +77,7 @@ private:
 
     LineFactory &m_factory;
     const Catalog &m_catalog;
-    DeviceKey &m_nextKey;
+    DeviceKeys &m_keys;
     std::unique_ptr<BusThread> m_thread;
     std::vector<std::unique_ptr<Device>> m_devices;
     std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row

@@ -24,7 +24,7 @@ LineSession &Session::open(const QString &name, int baudRate)
     if (present != m_lines.end())
         close(**present);
     m_factory.prepare(name);
-    m_lines.push_back(std::make_unique<LineSession>(m_factory, name, baudRate, m_catalog, m_nextKey));
+    m_lines.push_back(std::make_unique<LineSession>(m_factory, name, baudRate, m_catalog, m_keys));
     LineSession *line = m_lines.back().get();
     connect(line, &LineSession::deviceAdded, this, &Session::deviceAdded);
     connect(line, &LineSession::deviceAboutToBeRemoved, this, &Session::deviceAboutToBeRemoved);

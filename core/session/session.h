@@ -35,7 +35,7 @@ signals:
 private:
     LineFactory &m_factory;
     const Catalog &m_catalog;
-    DeviceKey m_nextKey = 1;
+    DeviceKeys m_keys;
     std::vector<std::unique_ptr<LineSession>> m_lines;
 };
 

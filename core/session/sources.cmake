@@ -2,6 +2,7 @@ target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
     session/device.cpp session/device.h
+    session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
     session/history.cpp session/history.h
     session/linehealth.cpp session/linehealth.h

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/table/catalog.h"
 #include "tests/support/uitest.h"
+#include "tests/ui/plotfixture.h"
 #include "ui/common/watchmime.h"
-#include "ui/plot/plotarea.h"
-#include "ui/plot/plotbar.h"
-#include "ui/plot/plotchart.h"
-#include "ui/plot/plotexport.h"
-#include "ui/plot/plotpanel.h"
 #include "ui/plot/tracedelegate.h"
-#include "ui/plot/tracelist.h"
-#include "ui/plot/tracemodel.h"
 
 #include <QAbstractItemModelTester>
-#include <QBuffer>
 #include <QContextMenuEvent>
 #include <QDropEvent>
-#include <QFileDialog>
 #include <QMenu>
 #include <QSignalSpy>
 #include <QToolButton>
@@ -25,68 +16,6 @@ using namespace dynascope;
 using namespace std::chrono_literals;
 
 namespace {
-
-/// No line opens: what the devices say, the test says in their place.
-class NoLines : public LineFactory
-{
-public:
-    bool knows(const QString &) const override { return true; }
-    Result<std::unique_ptr<Line>> open(const QString &name, int) override
-    {
-        return failure(ErrorKind::PortNotFound, name);
-    }
-};
-
-/// A session with two servos, and a plot area.
-struct Bench {
-    NoLines factory;
-    Catalog catalog = Catalog::builtIn().value();
-    Session session{factory, catalog};
-    Monitor monitor{session};
-    LineSession &line = session.open(QStringLiteral("test"), 1'000'000);
-    Device &first = line.heard({1, 1'000'000, 1020, 45, false, {}});
-    Device &second = line.heard({2, 1'000'000, 1060, 45, false, {}});
-    PlotArea area{session, monitor};
-
-    Bench()
-    {
-        area.resize(900, 400);
-        area.show();
-    }
-
-    Watch watch(const Device &device, const char *field) const
-    {
-        return {device.key(), device.table().indexOf(QString::fromLatin1(field))};
-    }
-
-    /// One poll cycle brings this.
-    void sample(const Watch &watch, LineTime at, std::int32_t raw)
-    {
-        const Device *device = session.device(watch.device);
-        const Field &field = device->table().fields()[static_cast<std::size_t>(watch.field)];
-        Batch batch;
-        PollValue value;
-        value.device = watch.device;
-        value.address = field.address;
-        value.length = field.size;
-        value.data = bytesFromRaw(field, raw);
-        value.at = at;
-        batch.values.push_back(value);
-        emit line.batchTaken(batch);
-    }
-
-    TraceModel &model(std::size_t panel = 0) const { return area.panels()[panel]->model(); }
-    PlotChart &chart(std::size_t panel = 0) const { return area.panels()[panel]->chart(); }
-    TraceList &list(std::size_t panel = 0) const { return *area.panels()[panel]->findChild<TraceList *>(); }
-    QAction *action(const QString &text) const
-    {
-        for (QAction *action : area.findChild<PlotBar *>()->actions()) {
-            if (action->text() == text)
-                return action;
-        }
-        return nullptr;
-    }
-};
 
 class PaintCount final : public QObject
 {
@@ -119,7 +48,7 @@ class TestPlotArea : public QObject
 private slots:
     void tracesAreWatched()
     {
-        Bench bench;
+        PlotBench bench;
         const QAbstractItemModelTester tester(&bench.model());
         QSignalSpy changes(&bench.area, &PlotArea::tracesChanged);
         const Watch position = bench.watch(bench.first, "Present Position");
@@ -142,7 +71,7 @@ private slots:
 
     void aTraceInTwoPanelsIsWatchedUntilBothAreGone()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         PlotPanel *lower = bench.area.addPanel();
@@ -158,7 +87,7 @@ private slots:
 
     void valuesArePhysical()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         QCOMPARE(bench.model().index(0).data(TraceModel::ValueRole).toString(), QString());
@@ -173,7 +102,7 @@ private slots:
 
     void axesFitWhatIsSeen()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         bench.sample(position, 1s, 1024);
@@ -197,7 +126,7 @@ private slots:
 
     void labelsFollowTheDevice()
     {
-        Bench bench;
+        PlotBench bench;
         bench.area.addTrace(bench.watch(bench.first, "Present Position"));
         bench.line.moveDevice(bench.first, {9, 57600, 1020, 45, false, {}});
         QCOMPARE(bench.model().index(0).data().toString(), QStringLiteral("XM430-W350 #9 · Present Position"));
@@ -207,7 +136,7 @@ private slots:
 
     void tracesOfAGoneDeviceStayDimmed()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         const Watch other = bench.watch(bench.second, "Present Position");
         bench.area.addTrace(position);
@@ -223,9 +152,34 @@ private slots:
         QCOMPARE(bench.model().rowCount(), 1);
     }
 
+    void tracesOfADeviceThatIsBackGoOn()
+    {
+        PlotBench bench;
+        const Watch position = bench.watch(bench.first, "Present Position");
+        bench.area.addTrace(position);
+        bench.sample(position, 1s, 1024);
+        const Watch other = bench.watch(bench.second, "Present Position");
+        bench.area.addTrace(other);
+        bench.line.forget(bench.first.key());
+        QVERIFY(!bench.monitor.isWatched(position));
+        Device &stranger = bench.line.heard({3, 1'000'000, 1020, 45, false, {}});
+        QVERIFY(stranger.key() != position.device);
+        QVERIFY(bench.model().index(0).data(TraceModel::GoneRole).toBool());
+
+        Device &back = bench.line.heard({1, 1'000'000, 1020, 45, false, {}});
+        QCOMPARE(back.key(), position.device);
+        QCOMPARE(bench.model().rowCount(), 2); // the same trace, not another one
+        QVERIFY(!bench.model().index(0).data(TraceModel::GoneRole).toBool());
+        QVERIFY(bench.monitor.isWatched(position));
+        bench.sample(position, 2s, 2048);
+        QTRY_COMPARE(bench.model().index(0).data(TraceModel::ValueRole).toString(), QStringLiteral("180.00"));
+        back.setNickname(QStringLiteral("elbow"));
+        QCOMPARE(bench.model().index(0).data().toString(), QStringLiteral("elbow · Present Position"));
+    }
+
     void pauseFreezes()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         for (int i = 0; i < 100; ++i)
@@ -246,7 +200,7 @@ private slots:
 
     void pausedViewIsDraggedAndZoomed()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         bench.sample(position, 100s, 1);
@@ -265,7 +219,7 @@ private slots:
 
     void spanGoesFromOneSecondToTenMinutes()
     {
-        Bench bench;
+        PlotBench bench;
         auto *span = bench.area.findChild<SpanBox *>();
         span->setValue(5000);
         QCOMPARE(bench.area.timeWindow().span(), LineTime(600s));
@@ -284,7 +238,7 @@ private slots:
 
     void aTraceIsHiddenByEyeAndKey()
     {
-        Bench bench;
+        PlotBench bench;
         bench.area.addTrace(bench.watch(bench.first, "Present Position"));
         bench.area.addTrace(bench.watch(bench.first, "Present Current"));
         TraceList &list = bench.list();
@@ -307,7 +261,7 @@ private slots:
 
     void theMenuHidesAllOthers()
     {
-        Bench bench;
+        PlotBench bench;
         bench.area.addTrace(bench.watch(bench.first, "Present Position"));
         bench.area.addTrace(bench.watch(bench.first, "Present Current"));
         TraceList &list = bench.list();
@@ -324,7 +278,7 @@ private slots:
 
     void fieldsAreDropped()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         const Watch current = bench.watch(bench.first, "Present Current");
         const auto mime = watchesToMime({position, current});
@@ -345,7 +299,7 @@ private slots:
 
     void clearForgetsSamplesAndKeepsTraces()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         bench.sample(position, 1s, 2048);
@@ -356,117 +310,9 @@ private slots:
         QTRY_VERIFY(bench.chart().view().to() > 2s);
     }
 
-    void samplesAreSavedAsCsv()
-    {
-        Bench bench;
-        const Watch position = bench.watch(bench.first, "Present Position");
-        bench.area.addTrace(position);
-        bench.sample(position, 1s, 1024);
-        bench.sample(position, 1500ms, 2048);
-        QTRY_VERIFY(bench.chart().view().to() > 1500ms);
-        QSignalSpy messages(&bench.area, &PlotArea::message);
-        bench.action(QStringLiteral("Save plots as CSV…"))->trigger();
-        auto *dialog = bench.area.findChild<QFileDialog *>();
-        QVERIFY(dialog);
-        const QTemporaryDir directory;
-        const QString path = directory.filePath(QStringLiteral("plot.csv"));
-        emit dialog->fileSelected(path);
-        dialog->close();
-        QFile file(path);
-        QVERIFY(file.open(QIODevice::ReadOnly));
-        QCOMPARE(QString::fromUtf8(file.readAll()),
-            QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n0.500000,180.00\n"));
-        QCOMPARE(messages.count(), 1);
-    }
-
-    void plotsAreSavedAsAPicture()
-    {
-        Bench bench;
-        const Watch position = bench.watch(bench.first, "Present Position");
-        bench.area.addTrace(position);
-        bench.sample(position, 1s, 1024);
-        QSignalSpy messages(&bench.area, &PlotArea::message);
-        bench.action(QStringLiteral("Save plots as a picture…"))->trigger();
-        auto *dialog = bench.area.findChild<QFileDialog *>();
-        QVERIFY(dialog);
-        const QTemporaryDir directory;
-        const QString path = directory.filePath(QStringLiteral("plot.png"));
-        emit dialog->fileSelected(path);
-        dialog->close();
-        QCOMPARE(QImage(path).size(), bench.area.panels().front()->size() * bench.area.devicePixelRatio());
-        QCOMPARE(messages.value(0).value(0).toString(), QStringLiteral("Saved %1").arg(path));
-    }
-
-    void whatCantBeSavedSaysWhy()
-    {
-        const QTemporaryDir directory;
-        const QString nowhere = directory.filePath(QStringLiteral("no/such/folder/plot"));
-        const QString refused = QStringLiteral("%1 could not be written: No such file or directory").arg(nowhere);
-        const Result<void> csv = saveCsv(nowhere, {}, 0s, 1s);
-        QVERIFY(!csv);
-        QCOMPARE(csv.error().text, refused);
-        const QString here = directory.filePath(QStringLiteral("plot.png"));
-        const Result<void> picture = savePicture(here, QPixmap()); // nothing to save: no fault of the file
-        QVERIFY(!picture);
-        QCOMPARE(picture.error().text, QStringLiteral("%1 could not be written").arg(here));
-        QVERIFY(!QFile::exists(here));
-        QBuffer closedToWriting;
-        closedToWriting.open(QIODevice::ReadOnly);
-        QTest::ignoreMessage(QtWarningMsg, "QIODevice::write (QBuffer): ReadOnly device");
-        QVERIFY(!writeCsv(closedToWriting, {}, 0s, 1s)); // already its first line
-    }
-
-    void tracesComeBackWithTheirDevices()
-    {
-        QByteArray state;
-        {
-            Bench bench;
-            bench.area.findChild<SpanBox *>()->setValue(60);
-            bench.area.addTrace(bench.watch(bench.first, "Present Position"));
-            bench.area.addPanel();
-            bench.area.addTrace(bench.watch(bench.second, "Present Load"));
-            bench.model(1).setVisible(0, false);
-            state = bench.area.saveState();
-        }
-        Bench bench;
-        bench.line.forget(bench.second.key());
-        bench.area.restoreState(state);
-        QCOMPARE(bench.area.timeWindow().span(), LineTime(60s));
-        QCOMPARE(bench.area.panels().size(), std::size_t(2));
-        QCOMPARE(bench.model(0).rowCount(), 1);
-        QCOMPARE(bench.model(1).rowCount(), 0);
-        QVERIFY(bench.area.saveState() == state); // what waits isn't lost
-        bench.line.heard({2, 1'000'000, 1060, 45, false, {}});
-        QCOMPARE(bench.model(1).rowCount(), 1);
-        QVERIFY(!bench.model(1).isVisible(0));
-        bench.area.restoreState("nonsense");
-        QCOMPARE(bench.area.panels().size(), std::size_t(2));
-    }
-
-    void whatWaitsForAClosedPanelGoesWithIt()
-    {
-        QByteArray state;
-        {
-            Bench bench;
-            bench.area.addTrace(bench.watch(bench.second, "Present Position"));
-            bench.area.addPanel();
-            bench.area.addTrace(bench.watch(bench.second, "Present Load"));
-            bench.area.addPanel();
-            bench.area.addTrace(bench.watch(bench.second, "Present Velocity"));
-            state = bench.area.saveState();
-        }
-        Bench bench;
-        bench.line.forget(bench.second.key());
-        bench.area.restoreState(state);
-        bench.area.closePanel(bench.area.panels().at(1));
-        Device &back = bench.line.heard({2, 1'000'000, 1060, 45, false, {}});
-        QVERIFY(bench.model(0).watches() == std::vector{bench.watch(back, "Present Position")});
-        QVERIFY(bench.model(1).watches() == std::vector{bench.watch(back, "Present Velocity")});
-    }
-
     void newValuesAloneDontRepaintAPausedPlot()
     {
-        Bench bench;
+        PlotBench bench;
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         bench.sample(position, 1s, 1024);
@@ -484,7 +330,7 @@ private slots:
 
     void everythingHasATip()
     {
-        Bench bench;
+        PlotBench bench;
         for (const QAction *action : bench.area.findChild<PlotBar *>()->actions()) {
             if (!action->isSeparator() && !action->text().isEmpty())
                 QVERIFY2(action->toolTip().size() > action->text().size(), qPrintable(action->text()));

@@ -53,6 +53,12 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
     // A device that goes takes its histories along: the charts must let go of them at once.
     connect(&monitor, &Monitor::watchesChanged, this, &PlotArea::refreshAll);
     connect(&session, &Session::deviceAdded, this, &PlotArea::restoreTraces);
+    connect(&session, &Session::deviceAdded, this, [this](Device *device) {
+        for (const Watch &watch : traces()) {
+            if (watch.device == device->key()) // it is back
+                m_monitor.watch(watch);
+        }
+    });
     connectBar();
     addPanel();
 }

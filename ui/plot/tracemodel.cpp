@@ -12,6 +12,7 @@ TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent
     : QAbstractListModel(parent), m_session(session), m_monitor(monitor)
 {
     connect(&session, &Session::deviceAboutToBeRemoved, this, &TraceModel::onDeviceGone);
+    connect(&session, &Session::deviceAdded, this, &TraceModel::onDeviceBack);
 }
 
 int TraceModel::indexOf(const Watch &watch) const
@@ -69,7 +70,7 @@ bool TraceModel::add(const Watch &watch)
     trace.watch = watch;
     trace.color = freeColor();
     describe(trace);
-    connect(device, &Device::attributesChanged, this, [this, device] { updateDevice(device); });
+    follow(device);
     beginInsertRows({}, rowCount(), rowCount());
     m_traces.push_back(std::move(trace));
     endInsertRows();
@@ -119,6 +120,27 @@ void TraceModel::onDeviceGone(Device *device)
         trace.value.clear();
         emit dataChanged(index(row), index(row));
     }
+}
+
+/// Closed with its line and found there again: it has its former number, and its traces go on.
+void TraceModel::onDeviceBack(Device *device)
+{
+    bool isShown = false;
+    for (Trace &trace : m_traces) {
+        if (trace.watch.device != device->key())
+            continue;
+        trace.gone = false;
+        isShown = true;
+    }
+    if (!isShown)
+        return;
+    follow(device);
+    updateDevice(device);
+}
+
+void TraceModel::follow(Device *device)
+{
+    connect(device, &Device::attributesChanged, this, [this, device] { updateDevice(device); });
 }
 
 std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const

@@ -66,6 +66,8 @@ private:
     bool isSilent(const Trace &trace) const;
     void updateDevice(Device *device);
     void onDeviceGone(Device *device);
+    void onDeviceBack(Device *device);
+    void follow(Device *device);
     int freeColor() const;
 
     Session &m_session;
