@@ -120,6 +120,31 @@ QString unreadable(std::size_t bytes)
         .arg(bytesText(bytes));
 }
 
+QString sharedId(std::uint8_t id, Shared sign)
+{
+    const auto says = [sign] {
+        switch (sign) {
+        case Shared::Damaged: return Messages::tr("its answers come damaged");
+        case Shared::TwoModels: return Messages::tr("it answered as two different models");
+        case Shared::MoreThanOne: return Messages::tr("more came than one answer");
+        case Shared::Collide: return Messages::tr("their answers collide");
+        case Shared::BothAnswered: break;
+        }
+        return Messages::tr("both answered the scan");
+    };
+    return Messages::tr("two devices seem to share ID %1: %2").arg(id).arg(says());
+}
+
+QString onlyTheScan()
+{
+    return Messages::tr("it answered the scan, but no Ping of its own");
+}
+
+QString torqueStillOn(std::uint8_t id)
+{
+    return Messages::tr("%1 still says that its torque is on").arg(device(id));
+}
+
 Error refused(std::uint8_t id, DeviceError error)
 {
     return {ErrorKind::Refused,

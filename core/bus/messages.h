@@ -20,6 +20,11 @@ Error notSent(std::uint8_t id); ///< an answer to something earlier may still co
 /// What was seen of one device, and who else on the line is alive.
 Error withOthers(Error error, const std::vector<std::uint8_t> &others);
 QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found
+/// What tells that two devices have one ID.
+enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered };
+QString sharedId(std::uint8_t id, Shared sign);
+QString onlyTheScan(); ///< a device answered the broadcast Ping and no other
+QString torqueStillOn(std::uint8_t id); ///< STOP read it back
 Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);

@@ -7,6 +7,7 @@
 
 namespace dynascope {
 
+using messages::Shared;
 using namespace std::chrono_literals;
 
 namespace {
@@ -25,11 +26,6 @@ Found foundFrom(const Reply &reply, int baudRate)
     return found;
 }
 
-QString sharedId(std::uint8_t id)
-{
-    return QStringLiteral("two devices seem to share ID %1").arg(id);
-}
-
 /// Asks one device by itself and listens a little longer for a second voice. The reason for doubt; empty: none.
 Result<QString> doubtOf(Bus &bus, const Found &found)
 {
@@ -43,13 +39,13 @@ Result<QString> doubtOf(Bus &bus, const Found &found)
         || std::ranges::count(answer->seen.strayIds, found.id) > 0;
     const Result<Reply> &reply = answer->replies.front();
     if (!reply && answer->seen.bytesReceived > 0)
-        return sharedId(found.id) + QStringLiteral(": its answers come damaged");
+        return messages::sharedId(found.id, Shared::Damaged);
     if (!reply)
-        return QStringLiteral("it answered the scan, but no Ping of its own");
+        return messages::onlyTheScan();
     if (foundFrom(*reply, found.baudRate).modelNumber != found.modelNumber)
-        return sharedId(found.id) + QStringLiteral(": it answered as two different models");
+        return messages::sharedId(found.id, Shared::TwoModels);
     if (more || answer->seen.damagedPackets > 0)
-        return sharedId(found.id) + QStringLiteral(": more came than one answer");
+        return messages::sharedId(found.id, Shared::MoreThanOne);
     return QString();
 }
 
@@ -112,7 +108,7 @@ Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, B
         device.id = id;
         device.baudRate = bus.line().baudRate();
         if (!reply || damaged)
-            device.doubt = sharedId(id) + QStringLiteral(": their answers collide");
+            device.doubt = messages::sharedId(id, Shared::Collide);
         scan.devices.push_back(device);
         if (found)
             found(device);
@@ -143,7 +139,7 @@ Result<void> doubtEach(Bus &bus, const Observations &seen, BaudScan &scan, const
             return tl::unexpected(doubt.error());
         device.doubt = *doubt;
         if (device.doubt.isEmpty() && std::ranges::count(seen.strayIds, device.id) > 0)
-            device.doubt = sharedId(device.id) + QStringLiteral(": both answered the scan");
+            device.doubt = messages::sharedId(device.id, Shared::BothAnswered);
         if (!device.doubt.isEmpty() && found)
             found(device);
     }

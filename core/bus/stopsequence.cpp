@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/stopsequence.h"
 
+#include "core/bus/messages.h"
 #include "core/bus/operations.h"
 #include "core/bus/readplan.h"
 
@@ -141,7 +142,7 @@ StopOutcome verifyOne(Bus &bus, const StopTarget &target, int alsoTry)
     if (!value)
         return {target.device, false, value.error().text};
     if (value->data[0] != 0)
-        return {target.device, false, QStringLiteral("device %1 still says that its torque is on").arg(target.id)};
+        return {target.device, false, messages::torqueStillOn(target.id)};
     return {target.device, true, {}};
 }
 

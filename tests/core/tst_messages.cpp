@@ -114,6 +114,19 @@ private slots:
         row("unreadable", {ErrorKind::NoHeader, messages::unreadable(5)},
             QStringLiteral("somebody is there, but unreadable: 5 bytes came that make no answer (two devices under one "
                            "ID, another baud rate, another controller, or noise)"));
+        const auto doubt = [&row](const char *name, messages::Shared sign, const QString &says) {
+            row(name, {ErrorKind::NoHeader, messages::sharedId(4, sign)},
+                QStringLiteral("two devices seem to share ID 4: ") + says);
+        };
+        doubt("shared, damaged", messages::Shared::Damaged, QStringLiteral("its answers come damaged"));
+        doubt("shared, two models", messages::Shared::TwoModels, QStringLiteral("it answered as two different models"));
+        doubt("shared, more", messages::Shared::MoreThanOne, QStringLiteral("more came than one answer"));
+        doubt("shared, collide", messages::Shared::Collide, QStringLiteral("their answers collide"));
+        doubt("shared, both", messages::Shared::BothAnswered, QStringLiteral("both answered the scan"));
+        row("only the scan", {ErrorKind::NoHeader, messages::onlyTheScan()},
+            QStringLiteral("it answered the scan, but no Ping of its own"));
+        row("torque still on", {ErrorKind::Stopped, messages::torqueStillOn(4)},
+            QStringLiteral("device 4 still says that its torque is on"));
         row("level", messages::silentByLevel(3, 0),
             QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping"));
         row("limit", messages::refused(3, DeviceError::DataLimit),
@@ -153,7 +166,9 @@ private slots:
             messages::rateNotConfirmed(port, 1), messages::rateIsTheServers(port, 1), messages::deviceRateBound(port),
             messages::onlyLate(1), messages::asleep(1), messages::withOthers(messages::asleep(1), {}),
             messages::withOthers(messages::asleep(1), {2}), messages::withOthers(messages::asleep(1), {2, 3}),
-            {ErrorKind::NoHeader, messages::unreadable(2)}};
+            {ErrorKind::NoHeader, messages::unreadable(2)},
+            {ErrorKind::NoHeader, messages::sharedId(1, messages::Shared::Collide)},
+            {ErrorKind::NoHeader, messages::onlyTheScan()}, {ErrorKind::Stopped, messages::torqueStillOn(1)}};
         QCoreApplication::removeTranslator(&brackets);
         for (const Error &error : all)
             QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));
