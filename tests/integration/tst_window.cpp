@@ -6,9 +6,11 @@
 #include "tests/support/windowdriver.h"
 
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QDialog>
 #include <QSettings>
 #include <QTemporaryDir>
+#include <QTreeView>
 
 using namespace dynascope;
 
