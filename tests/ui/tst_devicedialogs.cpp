@@ -74,8 +74,20 @@ private slots:
     void anIdAtAnotherRateIsFree()
     {
         ChangeIdDialog dialog(*m_bench->device(1, 57600), m_bench->commands, nullptr);
-        dialog.findChild<QSpinBox *>(QStringLiteral("newId"))->setValue(4);
+        auto *id = dialog.findChild<QSpinBox *>(QStringLiteral("newId"));
+        QCOMPARE(id->value(), 2); // which is free here and there: 4 is not suggested
+        id->setValue(4);
         QVERIFY(canAccept(dialog));
+    }
+
+    void theIdSuggestedIsFreeAtEveryRate()
+    {
+        m_line->heard({2, 57600, 1020, 45, false, {}});
+        m_line->heard({3, 1000000, 1020, 45, false, {}});
+        for (const int baudRate : {57600, 1000000}) {
+            ChangeIdDialog dialog(*m_bench->device(1, baudRate), m_bench->commands, nullptr);
+            QCOMPARE(dialog.findChild<QSpinBox *>(QStringLiteral("newId"))->value(), 5);
+        }
     }
 
     void idNeedsTorqueOff()

@@ -182,7 +182,7 @@ private slots:
         m_line->deviceAt(1, 1000000)->setState(Device::State::Silent);
         const QModelIndex index = m_model->indexOf(m_line->deviceAt(1, 1000000));
         QVERIFY(index.data(DeviceTreeModel::DimmedRole).toBool());
-        QVERIFY(index.data(DeviceTreeModel::SubtitleRole).toString().startsWith(QStringLiteral("Silent")));
+        QVERIFY(index.data(DeviceTreeModel::SubtitleRole).toString().startsWith(QStringLiteral("Does not answer")));
     }
 
     void severalLines()

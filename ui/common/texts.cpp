@@ -89,7 +89,7 @@ QString deviceStateText(const Device &device)
     case Device::State::Present: break;
     case Device::State::Parked:
         return Texts::tr("Parked, heard %1").arg(agoText(device.lastHeard()));
-    case Device::State::Silent: return Texts::tr("Silent, heard %1").arg(agoText(device.lastHeard()));
+    case Device::State::Silent: return Texts::tr("Does not answer");
     case Device::State::Rebooting: return Texts::tr("Rebooting…");
     }
     if (!device.doubt().isEmpty())

@@ -8,6 +8,8 @@
 #include <QLabel>
 #include <QSpinBox>
 
+#include <algorithm>
+
 namespace dynascope {
 
 namespace {
@@ -61,13 +63,22 @@ ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *pare
     ChangeIdDialog::check();
 }
 
+/// Free at every rate of the line, if there is one: devices at different rates may yet come together.
 int ChangeIdDialog::firstFree() const
 {
+    const auto standsSomewhere = [line = device()->line()](int id) {
+        return line && std::ranges::any_of(line->devices(), [id](const auto &other) { return other->id() == id; });
+    };
+    int fallback = device()->id();
     for (int id = 1; id <= 252; ++id) {
-        if (id != device()->id() && takenBy(*device(), id).isEmpty())
+        if (id == device()->id() || !takenBy(*device(), id).isEmpty())
+            continue;
+        if (!standsSomewhere(id))
             return id;
+        if (fallback == device()->id())
+            fallback = id;
     }
-    return device()->id();
+    return fallback;
 }
 
 void ChangeIdDialog::check()
