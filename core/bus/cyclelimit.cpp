@@ -47,6 +47,8 @@ LineTime wireTime(std::span<const PollSpan> spans, std::span<const Traits> trait
 
 double possibleCycleRate(const PollPlan &plan, int baudRate)
 {
+    if (!std::ranges::all_of(plan.traits, &Traits::returnDelayKnown))
+        return 0;
     std::map<std::chrono::milliseconds, std::vector<PollSpan>> byInterval;
     for (const PollSpan &span : plan.spans)
         byInterval[span.interval].push_back(span);

@@ -14,6 +14,7 @@ struct Traits {
     std::uint8_t id = 0;
     int baudRate = 0;                           ///< bits per second; what follows holds only there. AnyRate: always
     std::chrono::microseconds returnDelay{508}; ///< 508 µs until Return Delay Time has been read
+    bool returnDelayKnown = false;              ///< it has been read
     std::uint8_t statusReturnLevel = 2;         ///< 0 Ping only, 1 Ping and Read, 2 all
     int firmware = -1;                          ///< what was learned of a device holds for this; −1: not known
     bool fastReads = false;                     ///< Fast Sync Read and Fast Bulk Read, by model and firmware

@@ -27,8 +27,10 @@ Traits Device::traits() const
     Traits traits;
     traits.id = m_found.id;
     traits.baudRate = m_found.baudRate;
-    if (const auto delay = raw(Known::ReturnDelayTime))
+    if (const auto delay = raw(Known::ReturnDelayTime)) {
         traits.returnDelay = std::chrono::microseconds(*delay * 2 + 8);
+        traits.returnDelayKnown = true;
+    }
     if (const auto level = raw(Known::StatusReturnLevel))
         traits.statusReturnLevel = static_cast<std::uint8_t>(*level);
     traits.firmware = m_found.firmware;
@@ -112,6 +114,12 @@ void Device::take(const PollValue &value)
     const int begin = value.address;
     const int end = begin + static_cast<int>(value.data.size());
     const ByteView bytes = value.data;
+    const auto covers = [&](Known known) {
+        const Field *field = m_table->find(known);
+        return field && field->address >= begin && field->end() <= end;
+    };
+    const bool saysHowItAnswers = covers(Known::ReturnDelayTime) || covers(Known::StatusReturnLevel);
+    const Traits before = saysHowItAnswers ? traits() : Traits();
     int first = -1;
     int last = -1;
     const std::span<const Field> fields = m_table->fields();
@@ -139,6 +147,8 @@ void Device::take(const PollValue &value)
     setHeard(value.at);
     if (first >= 0)
         emit fieldsChanged(first, last);
+    if (saysHowItAnswers && traits() != before)
+        emit attributesChanged();
 }
 
 void Device::takeReadBack(int fieldIndex, std::int64_t raw)

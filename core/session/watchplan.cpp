@@ -24,6 +24,14 @@ bool isState(const Field &field)
         || field.name == QLatin1String("Present Input Voltage") || field.name == QLatin1String("Present Temperature");
 }
 
+/// What tells how it answers: read until it is known.
+bool isUnknownManner(const Device &device, const Field &field)
+{
+    const ControlTable &table = device.table();
+    return (&field == table.find(Known::ReturnDelayTime) || &field == table.find(Known::StatusReturnLevel))
+        && !device.raw(field.name);
+}
+
 void addSpans(PollPlan &plan, const Device &device, std::chrono::milliseconds interval,
               const std::function<bool(const Field &)> &wanted)
 {
@@ -47,9 +55,11 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices)
         if (watches.isSelected) {
             addSpans(plan, device, SelectedInterval,
                      [](const Field &field) { return field.area != Area::Eeprom && !isIndirect(field); });
-        } else {
-            addSpans(plan, device, StateInterval, isState);
         }
+        addSpans(plan, device, StateInterval, [&](const Field &field) {
+            const bool isRead = watches.isSelected && field.area != Area::Eeprom;
+            return !isRead && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field));
+        });
         plan.traits.push_back(device.traits());
     }
     return plan;

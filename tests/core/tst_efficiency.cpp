@@ -66,6 +66,7 @@ struct World {
             Traits traits;
             traits.id = static_cast<std::uint8_t>(id);
             traits.returnDelay = 0us;
+            traits.returnDelayKnown = true;
             traits.fastReads = kind == Kind::Fast;
             traits.groupReads = kind != Kind::Single;
             plan.traits.push_back(traits);
@@ -175,6 +176,9 @@ private slots:
         plan.traits.front().returnDelay = 500us;
         const double slower = 1 / (1 / rate + 500e-6);
         QVERIFY(std::abs(possibleCycleRate(plan, baudRate) / slower - 1) < 0.01);
+        plan.traits.back().returnDelayKnown = false;
+        QCOMPARE(possibleCycleRate(plan, baudRate), 0.0);
+        plan = world.plan;
         plan.spans.clear();
         QCOMPARE(possibleCycleRate(plan, baudRate), 0.0);
     }

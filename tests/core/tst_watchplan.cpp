@@ -3,6 +3,8 @@
 #include "core/table/catalog.h"
 #include "tests/support/testmain.h"
 
+#include <QSignalSpy>
+
 using namespace dynascope;
 
 namespace {
@@ -37,9 +39,16 @@ private slots:
 
     void everyDeviceIsLookedAtOnceASecond()
     {
-        const Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
-        QCOMPARE(asText(planWatches({{&device, {}, false}})),
-                 QStringList({QStringLiteral("#1 64+7 every 1000 ms"), QStringLiteral("#1 144+3 every 1000 ms")}));
+        Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        const QStringList always{QStringLiteral("#1 64+7 every 1000 ms"), QStringLiteral("#1 144+3 every 1000 ms")};
+        const QString delay = QStringLiteral("#1 9+1 every 1000 ms"); // Return Delay Time, until it is known
+        QCOMPARE(asText(planWatches({{&device, {}, false}})), QStringList(delay) + always);
+        QSignalSpy changes(&device, &Device::attributesChanged);
+        device.takeReadBack(m_table->indexOf(u"Return Delay Time"), 0);
+        device.takeReadBack(m_table->indexOf(u"Status Return Level"), 2);
+        QCOMPARE(changes.count(), 1); // the level was taken for 2
+        QCOMPARE(asText(planWatches({{&device, {}, false}})), always);
+        QVERIFY(planWatches({{&device, {}, false}}).traits.front().returnDelayKnown);
     }
 
     void neighboursAreReadTogether()
@@ -58,7 +67,7 @@ private slots:
     {
         const Device device(2, nullptr, m_table, {2, 57600, 1020, 45, false, {}});
         const QStringList plan = asText(planWatches({{&device, {}, true}}));
-        QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms")}));
+        QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms"), QStringLiteral("#2 9+1 every 1000 ms")}));
     }
 
     void aParkedDeviceIsLeftAlone()

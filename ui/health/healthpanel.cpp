@@ -9,6 +9,7 @@
 
 #include <QClipboard>
 #include <QGuiApplication>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QStackedWidget>
 #include <QToolButton>
