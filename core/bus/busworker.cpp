@@ -223,13 +223,12 @@ void BusWorker::idle()
 void BusWorker::runStop()
 {
     runOrders(); // targets that were handed over just before it was pressed
-    const int present = m_line->baudRate();
     const Result<void> sent = sendTorqueOff(*m_bus, m_stopPlan, m_workingBaud);
     // From here on exchanges work again; pressed once more, STOP begins anew.
     m_stopRequested.store(false, std::memory_order_release);
     std::vector<StopOutcome> outcomes;
     if (sent) {
-        outcomes = verifyTorqueOff(*m_bus, m_stopPlan, m_workingBaud, present);
+        outcomes = verifyTorqueOff(*m_bus, m_stopPlan, m_workingBaud);
         if (m_bus->isStopped() || m_bus->isCancelled())
             return;
     } else {

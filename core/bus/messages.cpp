@@ -145,6 +145,15 @@ QString torqueStillOn(std::uint8_t id)
     return Messages::tr("%1 still says that its torque is on").arg(device(id));
 }
 
+Error anotherModel(std::uint8_t id, int there, int expected)
+{
+    return {ErrorKind::NotConfirmed,
+        Messages::tr("%1 answers as model number %2, not %3: another servo has its place; scan to find who is there")
+            .arg(device(id))
+            .arg(there)
+            .arg(expected)};
+}
+
 Error refused(std::uint8_t id, DeviceError error)
 {
     return {ErrorKind::Refused,

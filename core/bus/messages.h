@@ -25,6 +25,7 @@ enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered };
 QString sharedId(std::uint8_t id, Shared sign);
 QString onlyTheScan(); ///< a device answered the broadcast Ping and no other
 QString torqueStillOn(std::uint8_t id); ///< STOP read it back
+Error anotherModel(std::uint8_t id, int there, int expected);
 Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);

@@ -13,6 +13,7 @@ struct StopTarget {
     std::uint8_t id = 0;
     int baudRate = 57600;
     std::uint16_t torqueAddress = 64; ///< of its own model's Torque Enable
+    std::uint16_t modelNumber = 0;    ///< who must answer there to be believed; 0: whoever does
 
     friend bool operator==(const StopTarget &, const StopTarget &) = default;
 };

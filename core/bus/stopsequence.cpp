@@ -31,6 +31,8 @@ Result<void> sendAll(Bus &bus, const std::vector<Bytes> &packets)
 
 Result<void> sendTwice(Bus &bus, const std::vector<Bytes> &packets)
 {
+    if (packets.empty())
+        return {};
     if (Result<void> sent = sendAll(bus, packets); !sent)
         return sent;
     if (Result<void> quiet = bus.settle(Quiet, QuietLimit); !quiet)
@@ -49,7 +51,6 @@ StopPlan::StopPlan(std::vector<StopTarget> targets) : m_targets(std::move(target
 {
     for (const int baudRate : bauds())
         m_packets[baudRate] = make(baudRate);
-    m_elsewhere = make(0);
 }
 
 std::vector<int> StopPlan::bauds() const
@@ -62,28 +63,20 @@ std::vector<int> StopPlan::bauds() const
 
 const std::vector<Bytes> &StopPlan::packets(int baudRate) const
 {
+    static const std::vector<Bytes> nobody;
     const auto known = m_packets.find(baudRate);
-    return known == m_packets.end() ? m_elsewhere : known->second;
+    return known == m_packets.end() ? nobody : known->second;
 }
 
 std::vector<Bytes> StopPlan::make(int baudRate) const
 {
-    std::set<std::uint8_t> here;
-    std::vector<SpanData> writes, strangers;
-    for (const StopTarget &target : m_targets) {
-        if (target.baudRate == baudRate && here.insert(target.id).second)
-            writes.push_back(torqueOff(target));
-    }
-    for (const StopTarget &target : m_targets) {
-        const SpanData write = torqueOff(target);
-        if (!here.contains(target.id) && std::ranges::find(strangers, write) == strangers.end())
-            strangers.push_back(write);
-    }
-    writes.insert(writes.end(), strangers.begin(), strangers.end());
     // Sync Writes by address, so that nothing hangs on what a model knows of Bulk Write.
     std::map<std::uint16_t, std::vector<SpanData>> byAddress;
-    for (const SpanData &write : writes)
-        byAddress[write.address].push_back(write);
+    std::set<std::uint8_t> here;
+    for (const StopTarget &target : m_targets) {
+        if (target.baudRate == baudRate && here.insert(target.id).second)
+            byAddress[target.torqueAddress].push_back(torqueOff(target));
+    }
     std::vector<Bytes> packets;
     for (const auto &[address, group] : byAddress) {
         for (const Request &request : planWrites(group, {}))
@@ -101,11 +94,8 @@ Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud)
         return freed;
     if (Result<void> sent = sendTwice(bus, plan.packets(present)); !sent)
         return sent;
-    std::vector<int> others = plan.bauds();
-    others.push_back(workingBaud);
-    std::set<int> done{present};
-    for (const int baudRate : others) {
-        if (!done.insert(baudRate).second || !bus.setBaudRate(baudRate))
+    for (const int baudRate : plan.bauds()) {
+        if (baudRate == present || !bus.setBaudRate(baudRate))
             continue;
         if (Result<void> sent = sendTwice(bus, plan.packets(baudRate)); !sent)
             return sent;
@@ -120,6 +110,13 @@ namespace {
 
 Result<ReadReply> readTorque(Bus &bus, const StopTarget &target)
 {
+    if (Result<void> set = bus.setBaudRate(target.baudRate); !set)
+        return tl::unexpected(set.error());
+    const Result<PingReply> there = ping(bus, target.id);
+    if (!there)
+        return tl::unexpected(there.error());
+    if (target.modelNumber != 0 && there->modelNumber != target.modelNumber)
+        return tl::unexpected(messages::anotherModel(target.id, there->modelNumber, target.modelNumber));
     Result<ReadReply> value = read(bus, {target.id, target.torqueAddress, 1});
     if (!value || value->data[0] == 0)
         return value;
@@ -128,17 +125,9 @@ Result<ReadReply> readTorque(Bus &bus, const StopTarget &target)
     return read(bus, {target.id, target.torqueAddress, 1});
 }
 
-StopOutcome verifyOne(Bus &bus, const StopTarget &target, int alsoTry)
+StopOutcome verifyOne(Bus &bus, const StopTarget &target)
 {
-    Result<ReadReply> value;
-    for (const int baudRate : std::set<int>{target.baudRate, alsoTry}) {
-        if (Result<void> set = bus.setBaudRate(baudRate); !set)
-            value = tl::unexpected(set.error());
-        else
-            value = readTorque(bus, target);
-        if (value || bus.isStopped() || bus.isCancelled())
-            break;
-    }
+    const Result<ReadReply> value = readTorque(bus, target);
     if (!value)
         return {target.device, false, value.error().text};
     if (value->data[0] != 0)
@@ -148,7 +137,7 @@ StopOutcome verifyOne(Bus &bus, const StopTarget &target, int alsoTry)
 
 } // namespace
 
-std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud, int alsoTry)
+std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud)
 {
     std::vector<StopTarget> targets = plan.targets();
     // Those at the working rate first, then rate by rate: few switches.
@@ -156,7 +145,7 @@ std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int wor
         [workingBaud](const StopTarget &target) { return target.baudRate == workingBaud ? 0 : target.baudRate; });
     std::vector<StopOutcome> outcomes;
     for (const StopTarget &target : targets) {
-        outcomes.push_back(verifyOne(bus, target, alsoTry));
+        outcomes.push_back(verifyOne(bus, target));
         if (bus.isStopped() || bus.isCancelled())
             return {};
     }

@@ -18,7 +18,8 @@ public:
 
     const std::vector<StopTarget> &targets() const { return m_targets; }
     std::vector<int> bauds() const;
-    /// Those listed at this rate, and the others whose ID isn't listed here: a device may be in the middle of a change.
+    /// To those listed at this rate and nobody else: an ID of another rate may here be a model that keeps something else
+    /// at that address. Who is in the middle of a change of rate has its torque off, or its EEPROM would be locked.
     const std::vector<Bytes> &packets(int baudRate) const;
 
 private:
@@ -26,16 +27,15 @@ private:
 
     std::vector<StopTarget> m_targets;
     std::map<int, std::vector<Bytes>> m_packets;
-    std::vector<Bytes> m_elsewhere; ///< at a rate where nobody is listed
 };
 
 /// Sends the packets at the line's present baud rate as soon as the wire is free, again after 2 ms of quiet, then at
 /// the other bauds, and goes back to `workingBaud`. Heeds no stop flag. Fails with PortLost only.
 Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
-/// Reads each device's Torque Enable back, at its baud rate or else at `alsoTry`; sends its packet once more where it
-/// still says 1. Ends early, with nothing, where STOP is pressed again or the
-/// line is closed. The line is left at `workingBaud`.
-std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud, int alsoTry);
+/// Asks each device at its baud rate which model it is, reads its Torque Enable back, and writes once more where that
+/// still says 1. Another model there is not written to, and confirms nothing. Ends early, with nothing, where STOP is
+/// pressed again or the line is closed. The line is left at `workingBaud`.
+std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
 } // namespace dynascope

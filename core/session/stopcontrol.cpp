@@ -58,8 +58,11 @@ void StopControl::prepare()
     for (const auto &line : m_session.lines()) {
         std::vector<StopTarget> targets;
         for (const auto &device : line->devices()) {
-            if (const Field *torque = device->table().find(Known::TorqueEnable))
-                targets.push_back({device->key(), device->id(), device->baudRate(), torque->address});
+            const Field *torque = device->table().find(Known::TorqueEnable);
+            if (!torque)
+                continue;
+            targets.push_back({device->key(), device->id(), device->baudRate(), torque->address,
+                               static_cast<std::uint16_t>(device->modelNumber())});
         }
         line->bus().setStopTargets(std::move(targets));
     }

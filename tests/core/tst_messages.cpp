@@ -127,6 +127,9 @@ private slots:
             QStringLiteral("it answered the scan, but no Ping of its own"));
         row("torque still on", {ErrorKind::Stopped, messages::torqueStillOn(4)},
             QStringLiteral("device 4 still says that its torque is on"));
+        row("another model", messages::anotherModel(4, 1060, 1020),
+            QStringLiteral("device 4 answers as model number 1060, not 1020: another servo has its place; scan to find who is "
+                           "there"));
         row("level", messages::silentByLevel(3, 0),
             QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping"));
         row("limit", messages::refused(3, DeviceError::DataLimit),
