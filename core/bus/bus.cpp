@@ -21,7 +21,12 @@ constexpr LineTime SettleLimit = 50ms;
 void Bus::setTraits(const std::vector<Traits> &traits)
 {
     m_known.reset();
+    m_moreTraits.clear();
     for (const Traits &device : traits) {
+        if (m_known.test(device.id)) {
+            m_moreTraits.push_back(device);
+            continue;
+        }
         m_known.set(device.id);
         m_traits[device.id] = device;
     }
@@ -30,8 +35,13 @@ void Bus::setTraits(const std::vector<Traits> &traits)
 Traits Bus::traits(std::uint8_t id) const
 {
     const int rate = m_channel.line().baudRate();
-    if (m_known.test(id) && (m_traits[id].baudRate == AnyRate || m_traits[id].baudRate == rate))
+    const auto holds = [id, rate](const Traits &device) {
+        return device.id == id && (device.baudRate == AnyRate || device.baudRate == rate);
+    };
+    if (m_known.test(id) && holds(m_traits[id]))
         return m_traits[id];
+    if (const auto other = std::ranges::find_if(m_moreTraits, holds); other != m_moreTraits.end())
+        return *other;
     Traits fresh;
     fresh.id = id;
     fresh.baudRate = rate;

@@ -27,7 +27,7 @@ public:
 
     Line &line() { return m_channel.line(); }
 
-    /// `traits` of the devices concerned, by ID; those not listed are taken for factory-fresh.
+    /// `traits` of the devices concerned, each for its baud rate; those not listed are taken for factory-fresh.
     void setTraits(const std::vector<Traits> &traits);
     Traits traits(std::uint8_t id) const;
 
@@ -108,7 +108,8 @@ private:
     LearnedTiming m_timing;
     Parser m_idle; ///< takes apart what comes while nobody waits
     QualityLog m_quality;
-    std::array<Traits, 256> m_traits; ///< by ID, where m_known says so
+    std::array<Traits, 256> m_traits; ///< by ID, where m_known says so: the first listed
+    std::vector<Traits> m_moreTraits; ///< of the same IDs at other rates
     std::bitset<256> m_known;
     std::array<LineTime, 256> m_heardAt{}; ///< by ID; 0: never
     Tap m_tap;

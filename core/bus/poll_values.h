@@ -15,8 +15,10 @@ struct PollSpan {
 };
 
 struct PollPlan {
+    int baudRate = AnyRate; ///< bits per second; while the line works at another one nothing of it is read
     std::vector<PollSpan> spans;
     std::vector<Traits> traits; ///< of every device in `spans`
+    std::vector<Traits> others; ///< of those that only jobs speak to, each for its own rate
 
     friend bool operator==(const PollPlan &, const PollPlan &) = default;
 };
@@ -35,6 +37,7 @@ struct PollValue {
 /// What one poll cycle brought, in the order of the plan.
 struct Batch {
     quint64 cycle = 0;
+    int baudRate = AnyRate; ///< that it was read at
     LineTime begin{}, end{};
     bool fullRate = false; ///< the cycle read the interval-0 spans: counts for the achieved rate
     std::vector<PollValue> values;

@@ -50,7 +50,9 @@ void Poller::setPlan(PollPlan plan)
     m_due = std::move(due);
     m_place.assign(m_plan.spans.size(), 0);
     m_prepared.clear();
-    m_bus.setTraits(m_plan.traits);
+    std::vector<Traits> known = m_plan.traits;
+    known.insert(known.end(), m_plan.others.begin(), m_plan.others.end());
+    m_bus.setTraits(known);
 }
 
 bool Poller::isSleeping(std::uint8_t id) const
@@ -80,6 +82,7 @@ Result<Batch> Poller::runCycle()
 Result<void> Poller::runCycle(Batch &batch)
 {
     batch.cycle = ++m_cycle;
+    batch.baudRate = m_bus.line().baudRate();
     batch.begin = m_bus.line().now();
     batch.fullRate = false;
     m_fastMissed.reset();

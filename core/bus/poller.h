@@ -18,7 +18,12 @@ public:
     explicit Poller(Bus &bus) : m_bus(bus) { }
 
     void setPlan(PollPlan plan);
-    bool isIdle() const { return m_plan.spans.empty(); }
+    /// Nothing to read, or not at the line's present rate: whoever has these IDs there is not whom the plan means.
+    bool isIdle() const
+    {
+        const bool elsewhere = m_plan.baudRate != AnyRate && m_plan.baudRate != m_bus.line().baudRate();
+        return m_plan.spans.empty() || elsewhere;
+    }
 
     /// When something is due next; `now` or before: at once.
     LineTime nextDue() const;

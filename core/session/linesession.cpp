@@ -201,7 +201,12 @@ void LineSession::setWorkingBaudRate(int bitsPerSecond)
 
 void LineSession::takeBatches()
 {
-    for (const Batch &batch : m_thread->takeBatches()) {
+    for (Batch &batch : m_thread->takeBatches()) {
+        std::erase_if(batch.values, [this, &batch](const PollValue &value) {
+            const Device *device = this->device(value.device);
+            // Gone since, or at another rate: who was asked at this one was somebody else.
+            return !device || (batch.baudRate != AnyRate && batch.baudRate != device->baudRate());
+        });
         take(batch);
         emit batchTaken(batch);
     }
@@ -213,8 +218,6 @@ void LineSession::take(const Batch &batch)
         ++m_fullRateCycles;
     for (const PollValue &value : batch.values) {
         Device *device = this->device(value.device);
-        if (!device)
-            continue; // gone since the cycle ran
         if (value.data.empty()) {
             countFailure(*device, value.error);
             continue;

@@ -118,7 +118,7 @@ void Monitor::replan()
             }
             devices.push_back(std::move(watches));
         }
-        PollPlan plan = planWatches(devices);
+        PollPlan plan = planWatches(devices, line->baudRate());
         SentPlan &sent = m_sentPlans[line.get()];
         if (sent.generation != line->generation())
             sent = {line->generation(), {}};

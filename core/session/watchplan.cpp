@@ -41,13 +41,16 @@ void addSpans(PollPlan &plan, const Device &device, std::chrono::milliseconds in
 
 } // namespace
 
-PollPlan planWatches(const std::vector<DeviceWatches> &devices)
+PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
 {
     PollPlan plan;
+    plan.baudRate = baudRate;
     for (const DeviceWatches &watches : devices) {
         const Device &device = *watches.device;
-        if (device.state() == Device::State::Parked || device.state() == Device::State::Rebooting)
+        if (device.baudRate() != baudRate || device.state() == Device::State::Rebooting) {
+            plan.others.push_back(device.traits());
             continue;
+        }
         const Field *first = device.table().fields().data();
         addSpans(plan, device, 0ms, [&](const Field &field) {
             return std::ranges::find(watches.fields, static_cast<int>(&field - first)) != watches.fields.end();

@@ -15,7 +15,8 @@ struct DeviceWatches {
 /// The spans to poll. Pure. Neighbouring fields are joined, gaps read through where that costs less than asking again;
 /// besides what is watched and selected, every device's state (torque, hardware error, voltage, temperature) at 1 Hz, and
 /// Return Delay Time and Status Return Level until they are known.
-/// Devices that are parked or rebooting are left out.
-PollPlan planWatches(const std::vector<DeviceWatches> &devices);
+/// Devices that are rebooting or at another rate than `baudRate`, the line's, are left out; of these the bus learns how
+/// they answer.
+PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate);
 
 } // namespace dynascope

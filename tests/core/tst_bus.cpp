@@ -245,6 +245,27 @@ private slots:
             QStringList(QStringLiteral("device 3 did not answer: its Status Return Level 0 lets it answer only Ping")));
     }
 
+    void traitsAreOfOneRate()
+    {
+        Traits here, there;
+        here.id = there.id = 3;
+        here.baudRate = 1'000'000;
+        there.baudRate = 57600;
+        there.statusReturnLevel = 1;
+        FakeLine line;
+        Bus bus(line);
+        bus.setTraits({here, there});
+        QCOMPARE(bus.traits(3), here);
+        QVERIFY(bus.setBaudRate(57600));
+        QCOMPARE(bus.traits(3), there);
+        const LineTime begin = line.now();
+        const auto cleared = bus.exchange(clearRequest(3, ClearOption::Position)); // takes up to 3 s
+        QVERIFY(cleared->replies.front());
+        QVERIFY(line.now() - begin < 20ms);
+        QVERIFY(bus.setBaudRate(9600));
+        QCOMPARE(bus.traits(3).statusReturnLevel, std::uint8_t(2));
+    }
+
     // Its level was set by somebody else, say: it does answer, and late.
     void whatAMuteDeviceSaysIsNotTheNextWritesAnswer_data()
     {

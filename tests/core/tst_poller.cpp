@@ -49,7 +49,7 @@ class TestPoller : public QObject
         }
         void plan(std::vector<PollSpan> spans, bool fast = false)
         {
-            poller.setPlan({std::move(spans), {traits(1, fast), traits(2, fast), traits(3, fast)}});
+            poller.setPlan({AnyRate, std::move(spans), {traits(1, fast), traits(2, fast), traits(3, fast)}, {}});
         }
         int sentOf(Instruction code) const
         {
@@ -176,7 +176,7 @@ private slots:
         std::atomic<bool> stop = false;
         Bus bus(line, &stop);
         Poller poller(bus);
-        poller.setPlan({{span(1)}, {traits(1)}});
+        poller.setPlan({AnyRate, {span(1)}, {traits(1)}, {}});
         stop = true;
         QCOMPARE(poller.runCycle().error().kind, ErrorKind::Stopped);
         stop = false;

@@ -42,13 +42,13 @@ private slots:
         Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
         const QStringList always{QStringLiteral("#1 64+7 every 1000 ms"), QStringLiteral("#1 144+3 every 1000 ms")};
         const QString delay = QStringLiteral("#1 9+1 every 1000 ms"); // Return Delay Time, until it is known
-        QCOMPARE(asText(planWatches({{&device, {}, false}})), QStringList(delay) + always);
+        QCOMPARE(asText(planWatches({{&device, {}, false}}, 57600)), QStringList(delay) + always);
         QSignalSpy changes(&device, &Device::attributesChanged);
         device.takeReadBack(m_table->indexOf(u"Return Delay Time"), 0);
         device.takeReadBack(m_table->indexOf(u"Status Return Level"), 2);
         QCOMPARE(changes.count(), 1); // the level was taken for 2
-        QCOMPARE(asText(planWatches({{&device, {}, false}})), always);
-        QVERIFY(planWatches({{&device, {}, false}}).traits.front().returnDelayKnown);
+        QCOMPARE(asText(planWatches({{&device, {}, false}}, 57600)), always);
+        QVERIFY(planWatches({{&device, {}, false}}, 57600).traits.front().returnDelayKnown);
     }
 
     void neighboursAreReadTogether()
@@ -57,7 +57,7 @@ private slots:
         const int position = m_table->indexOf(u"Present Position");
         const int velocity = m_table->indexOf(u"Present Velocity");
         const int temperature = m_table->indexOf(u"Present Temperature");
-        const QStringList plan = asText(planWatches({{&device, {position, velocity, temperature}, false}}));
+        const QStringList plan = asText(planWatches({{&device, {position, velocity, temperature}, false}}, 57600));
         // 128..135 and 146: ten bytes between them are dearer than a second span.
         QCOMPARE(plan.mid(0, 2),
                  QStringList({QStringLiteral("#1 128+8 every 0 ms"), QStringLiteral("#1 146+1 every 0 ms")}));
@@ -66,17 +66,21 @@ private slots:
     void theSelectedDeviceShowsItsRam()
     {
         const Device device(2, nullptr, m_table, {2, 57600, 1020, 45, false, {}});
-        const QStringList plan = asText(planWatches({{&device, {}, true}}));
+        const QStringList plan = asText(planWatches({{&device, {}, true}}, 57600));
         QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms"), QStringLiteral("#2 9+1 every 1000 ms")}));
     }
 
     void aParkedDeviceIsLeftAlone()
     {
         Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
-        device.setState(Device::State::Parked);
-        QVERIFY(planWatches({{&device, {0}, true}}).spans.empty());
-        device.setState(Device::State::Silent); // the poller probes it now and then
-        QVERIFY(!planWatches({{&device, {0}, true}}).spans.empty());
+        const PollPlan plan = planWatches({{&device, {0}, true}}, 1'000'000);
+        QVERIFY(plan.spans.empty());
+        QCOMPARE(plan.baudRate, 1'000'000);
+        QCOMPARE(plan.others, std::vector<Traits>{device.traits()}); // for jobs
+        device.setState(Device::State::Silent);
+        QVERIFY(planWatches({{&device, {0}, true}}, 1'000'000).spans.empty());
+        // The poller probes it now and then.
+        QVERIFY(!planWatches({{&device, {0}, true}}, 57600).spans.empty());
     }
 
 private:

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/scanner.h"
+#include "tests/support/builtincatalog.h"
+#include "tests/support/fakefactory.h"
+#include "tests/support/sessionfixture.h"
+#include "tests/support/testmain.h"
+
+#include <QSignalSpy>
+
+#include <set>
+
+using namespace dynascope;
+using namespace std::chrono_literals;
+
+/// What an open line makes of what its bus thread brings, in virtual time.
+class TestLineSession : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void aPlanIsOfOneRate()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1,XM430-W350@1000000:1"));
+        all.factory.simulated.servo(1, 57600)->write(u"Profile Velocity", 11);
+        all.factory.simulated.servo(1, 1'000'000)->write(u"Profile Velocity", 22);
+        all.open(57600);
+        Device &device = *all.line->deviceAt(1, 57600);
+        std::set<std::uint8_t> seen;
+        int batches = 0;
+        connect(all.line, &LineSession::batchTaken, this, [&](const Batch &batch) {
+            ++batches;
+            for (const PollValue &value : batch.values) {
+                if (!value.data.empty())
+                    seen.insert(value.data.front());
+            }
+        });
+        all.line->setPollPlan(planOf(device, u"Profile Velocity", 0ms));
+        QVERIFY(VirtualSession::waitFor([&] { return batches > 0; }));
+        all.line->setWorkingBaudRate(1'000'000); // the next plan comes later
+        for (int round = 0; round < 3; ++round) {
+            std::optional<Result<void>> done;
+            all.commands.ping(*all.line->deviceAt(1, 1'000'000), [&](const Result<void> &result) { done = result; });
+            QVERIFY(VirtualSession::waitFor([&] { return done.has_value(); }));
+            QVERIFY(*done);
+        }
+        // What was read at the old rate and still waited is taken, with it what came at the new one.
+        QSignalSpy changed(all.line, &LineSession::rateChanged);
+        QVERIFY(VirtualSession::waitFor([&] { return changed.size() > 0; }));
+        QCOMPARE(seen, std::set<std::uint8_t>{11});
+        QCOMPARE(device.raw(u"Profile Velocity"), 11);
+        all.close();
+    }
+
+private:
+    /// One register, read every so often.
+    static PollPlan planOf(const Device &device, QStringView name, std::chrono::milliseconds interval)
+    {
+        const Field &field = *device.table().find(name);
+        PollPlan plan;
+        plan.baudRate = device.baudRate();
+        plan.spans.push_back({device.key(), {device.id(), field.address, field.size}, interval});
+        plan.traits.push_back(device.traits());
+        return plan;
+    }
+
+    const Catalog m_catalog = test::builtInCatalog();
+};
+
+DYNASCOPE_CORE_TEST(TestLineSession)
+#include "tst_linesession.moc"
