@@ -109,7 +109,7 @@ void Device::setHeard(LineTime at)
     m_lastHeard = std::max(m_lastHeard, at);
 }
 
-void Device::take(const PollValue &value)
+void Device::take(const PollValue &value, FieldState as)
 {
     const int begin = value.address;
     const int end = begin + static_cast<int>(value.data.size());
@@ -127,12 +127,13 @@ void Device::take(const PollValue &value)
     for (; field != fields.end() && field->end() <= end; ++field) {
         const auto index = static_cast<int>(field - fields.begin());
         FieldValue &now = m_values[static_cast<std::size_t>(index)];
-        if (now.raw && now.state != FieldState::Stale && value.at < now.at)
+        const bool mayBeOlder = now.state == FieldState::Stale && as == FieldState::Fresh; // another line's clock
+        if (now.raw && !mayBeOlder && value.at < now.at)
             continue; // overtaken: a batch that was polled before a read-back
         const std::int64_t raw = rawFromBytes(*field, bytes.subspan(static_cast<std::size_t>(field->address - begin)));
         // A failed write stays to be seen until the value moves or somebody tries again.
         const bool keeps = now.state == FieldState::Pending || (now.state == FieldState::Failed && now.raw == raw);
-        const FieldState state = keeps ? now.state : FieldState::Fresh;
+        const FieldState state = keeps ? now.state : as;
         const bool changed = now.raw != raw || now.state != state;
         now.raw = raw;
         now.at = value.at;

@@ -80,8 +80,9 @@ public:
     void setState(State state);
     void setAlert(bool alert);
     void setHeard(LineTime at);
-    void take(const PollValue &value);           ///< bytes that were read; a pending field stays pending,
-                                                 ///< a failed one failed until its value moves; older news are dropped
+    /// Bytes that were read; a pending field stays pending, a failed one failed until its value moves; older news are
+    /// dropped. Stale: the device was there then.
+    void take(const PollValue &value, FieldState as = FieldState::Fresh);
     void takeReadBack(int fieldIndex, std::int64_t raw); ///< a job has just read this value back
     void setPending(int fieldIndex, std::int64_t raw);
     void clearPending(int fieldIndex);           ///< the write is over; take() what was read back

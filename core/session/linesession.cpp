@@ -90,6 +90,7 @@ void LineSession::reopen(const QString &name)
 void LineSession::onThreadState()
 {
     if (state() != BusThread::State::Open) {
+        takeBatches(); // from before
         m_cycleRate = 0;
         m_possibleRate = 0;
         m_busLoad = 0;
@@ -192,6 +193,7 @@ void LineSession::setPollPlan(PollPlan plan)
 
 void LineSession::setWorkingBaudRate(int bitsPerSecond)
 {
+    takeBatches(); // from before
     m_thread->setWorkingBaudRate(bitsPerSecond);
     m_health.startAnew();
     for (const auto &device : m_devices)
@@ -201,6 +203,7 @@ void LineSession::setWorkingBaudRate(int bitsPerSecond)
 
 void LineSession::takeBatches()
 {
+    m_frameTimer.stop();
     for (Batch &batch : m_thread->takeBatches()) {
         std::erase_if(batch.values, [this, &batch](const PollValue &value) {
             const Device *device = this->device(value.device);
@@ -226,7 +229,8 @@ void LineSession::take(const Batch &batch)
         device->setAlert(value.alert);
         if (device->state() == Device::State::Silent)
             park(*device);
-        device->take(value);
+        const bool isThere = state() == BusThread::State::Open && device->state() == Device::State::Present;
+        device->take(value, isThere ? FieldState::Fresh : FieldState::Stale);
     }
 }
 

@@ -120,6 +120,21 @@ private slots:
         QCOMPARE(device.raw(u"Torque Enable"), 0);
     }
 
+    void whatWaitedUntilItWasGoneIsStale()
+    {
+        Device device(1, nullptr, smallTable(), Servo);
+        device.take(bytesAt(64, {1}, 5));
+        device.setState(Device::State::Rebooting);
+        device.take(bytesAt(64, {0}, 6), FieldState::Stale);
+        QCOMPARE(device.raw(u"Torque Enable"), 0);
+        QCOMPARE(device.value(2).state, FieldState::Stale);
+        device.take(bytesAt(64, {1}, 4), FieldState::Stale);
+        QCOMPARE(device.raw(u"Torque Enable"), 0);
+        device.take(bytesAt(64, {1}, 4)); // it is back; the line was opened anew
+        QCOMPARE(device.raw(u"Torque Enable"), 1);
+        QCOMPARE(device.value(2).state, FieldState::Fresh);
+    }
+
     void aReadBackOvertakesWhatWasPolledBefore()
     {
         Device device(1, nullptr, smallTable(), Servo);

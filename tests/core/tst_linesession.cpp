@@ -51,6 +51,34 @@ private slots:
         all.close();
     }
 
+    void whatStillWaitedIsStale_data()
+    {
+        using Event = std::function<void(VirtualSession &)>;
+        QTest::addColumn<Event>("event");
+        QTest::newRow("closed") << Event([](VirtualSession &all) { all.line->bus().close(); });
+        QTest::newRow("parked") << Event([](VirtualSession &all) { all.line->setWorkingBaudRate(1'000'000); });
+        QTest::newRow("rebooting") << Event([](VirtualSession &all) {
+            all.line->devices().front()->setState(Device::State::Rebooting);
+        });
+    }
+    void whatStillWaitedIsStale()
+    {
+        QFETCH(std::function<void(VirtualSession &)>, event);
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1"));
+        all.factory.simulated.servo(1, 57600)->write(u"Profile Velocity", 11);
+        all.open(57600);
+        const Device &device = *all.line->devices().front();
+        QSignalSpy ready(&all.line->bus(), &BusThread::batchesReady);
+        QSignalSpy taken(all.line, &LineSession::batchTaken);
+        all.line->setPollPlan(planOf(device, u"Profile Velocity", 1000ms)); // once: virtual time stands still then
+        QVERIFY(VirtualSession::waitFor([&] { return !ready.empty(); }));
+        event(all);
+        QVERIFY(VirtualSession::waitFor([&] { return !taken.empty(); }));
+        QCOMPARE(device.raw(u"Profile Velocity"), 11);
+        QCOMPARE(device.value(device.table().indexOf(u"Profile Velocity")).state, FieldState::Stale);
+        all.close();
+    }
+
 private:
     /// One register, read every so often.
     static PollPlan planOf(const Device &device, QStringView name, std::chrono::milliseconds interval)
