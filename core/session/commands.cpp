@@ -110,7 +110,8 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     m_writes[{device.key(), fieldIndex}] = std::nullopt;
     device.setPending(fieldIndex, raw);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
-                        sideEffectsOf(device, field)};
+                        sideEffectsOf(device, field),
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
         [this, key = device.key(), fieldIndex, done = std::move(done)](const Result<std::vector<PollValue>> &values) {
@@ -127,6 +128,7 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vect
 
     Device *device = m_session.device(key);
     if (device && values) {
+        device->line()->answered(*device);
         device->clearPending(fieldIndex);
         for (const PollValue &value : *values)
             device->take(value);

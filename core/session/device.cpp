@@ -61,8 +61,6 @@ QString Device::lockReason(int fieldIndex) const
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
     if (!field.isWritable())
         return tr("%1 is read-only.").arg(field.name);
-    if (m_state == State::Silent)
-        return tr("%1 does not answer.").arg(displayName());
     if (m_state == State::Rebooting)
         return tr("%1 is rebooting.").arg(displayName());
     if (field.needsTorqueOff() && isTorqueOn())

@@ -225,17 +225,25 @@ void LineSession::take(const Batch &batch)
             countFailure(*device, value.error);
             continue;
         }
-        m_failures[device->key()] = 0;
         device->setAlert(value.alert);
-        if (device->state() == Device::State::Silent)
-            park(*device);
+        if (state() == BusThread::State::Open)
+            answered(*device);
         const bool isThere = state() == BusThread::State::Open && device->state() == Device::State::Present;
         device->take(value, isThere ? FieldState::Fresh : FieldState::Stale);
     }
 }
 
+void LineSession::answered(Device &device)
+{
+    m_failures[device.key()] = 0;
+    if (device.state() == Device::State::Silent)
+        park(device);
+}
+
 void LineSession::countFailure(Device &device, const Error &error)
 {
+    if (device.raw(Known::StatusReturnLevel) == 0)
+        return; // no Read is answered by it
     if (error.kind == ErrorKind::Refused || error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled)
         return; // it is there, or nobody waited for it
     if (++m_failures[device.key()] >= SilentAfter && device.state() == Device::State::Present)

@@ -43,6 +43,7 @@ public:
     /// The same device now stands elsewhere: ID or baud rate changed, or it was reset.
     void moveDevice(Device &device, const Found &found);
     void forget(DeviceKey key);
+    void answered(Device &device); ///< it did just now: not silent any more
     /// What the bus thread polls from now on; a new one, after reopen(), polls nothing.
     void setPollPlan(PollPlan plan);
     /// The line itself moves; devices elsewhere are parked.

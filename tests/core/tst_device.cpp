@@ -161,20 +161,27 @@ private slots:
     {
         QTest::addColumn<int>("field");
         QTest::addColumn<int>("torque");
+        QTest::addColumn<Device::State>("state");
         QTest::addColumn<QString>("reason");
-        QTest::newRow("read-only") << 4 << 0 << QStringLiteral("Present Position is read-only.");
-        QTest::newRow("EEPROM, torque off") << 0 << 0 << QString();
+        using enum Device::State;
+        QTest::newRow("read-only") << 4 << 0 << Present << QStringLiteral("Present Position is read-only.");
+        QTest::newRow("EEPROM, torque off") << 0 << 0 << Present << QString();
         QTest::newRow("EEPROM, torque on")
-            << 0 << 1 << QStringLiteral("ID is in the EEPROM area, which the servo locks while its torque is on.");
-        QTest::newRow("RAM, torque on") << 3 << 1 << QString();
+            << 0 << 1 << Present
+            << QStringLiteral("ID is in the EEPROM area, which the servo locks while its torque is on.");
+        QTest::newRow("RAM, torque on") << 3 << 1 << Present << QString();
+        QTest::newRow("silent") << 3 << 1 << Silent << QString(); // it may hear all the same
+        QTest::newRow("rebooting") << 3 << 1 << Rebooting << QStringLiteral("XM430-W350 #3 is rebooting.");
     }
     void locksWhatCannotBeWritten()
     {
         QFETCH(int, field);
         QFETCH(int, torque);
+        QFETCH(Device::State, state);
         QFETCH(QString, reason);
         Device device(1, nullptr, smallTable(), Servo);
         device.take(bytesAt(64, {static_cast<std::uint8_t>(torque)}));
+        device.setState(state);
         QCOMPARE(device.lockReason(field), reason);
     }
 

@@ -79,6 +79,32 @@ private slots:
         all.close();
     }
 
+    void aDeviceToldToBeSilentCanBeToldOtherwise()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1"));
+        all.open(57600);
+        Device &device = *all.line->devices().front();
+        const int level = device.table().indexOf(Known::StatusReturnLevel);
+        const auto write = [&](int value) {
+            std::optional<Result<void>> done;
+            all.commands.writeField(device, level, value, [&](const Result<void> &result) { done = result; });
+            return VirtualSession::waitFor([&] { return done.has_value(); }) && done->has_value();
+        };
+        QVERIFY(write(0));
+        QCOMPARE(device.raw(Known::StatusReturnLevel), 0);
+        QSignalSpy taken(all.line, &LineSession::batchTaken);
+        all.line->setPollPlan(planOf(device, u"Present Position", 0ms));
+        QVERIFY(VirtualSession::waitFor([&] { return taken.size() >= 3; }));
+        QCOMPARE(device.state(), Device::State::Present);
+        all.line->setPollPlan({});
+        device.setState(Device::State::Silent); // even so
+        QVERIFY(write(2));
+        QCOMPARE(device.raw(Known::StatusReturnLevel), 2);
+        QCOMPARE(device.state(), Device::State::Present);
+        all.close();
+        QCOMPARE(int(all.factory.simulated.servo(1, 57600)->value(u"Status Return Level")), 2);
+    }
+
 private:
     /// One register, read every so often.
     static PollPlan planOf(const Device &device, QStringView name, std::chrono::milliseconds interval)

@@ -53,6 +53,9 @@ Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldP
     if (!there.entered())
         return tl::unexpected(there.entered().error());
     auto written = writeVerified(context.bus(), plan.data);
+    const bool isSilent = !written && written.error().kind == ErrorKind::NothingReceived;
+    if (isSilent && plan.leavesOnlyPing && ping(context.bus(), plan.data.id))
+        written = plan.data.data; // Ping is answered and no Read: it does as it was told
     if (!written)
         return tl::unexpected(written.error());
     PollValue readBack;

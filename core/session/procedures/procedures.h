@@ -29,6 +29,7 @@ struct WriteFieldPlan {
     DevicePlace place;
     SpanData data;
     std::vector<Span> sideEffects;
+    bool leavesOnlyPing = false; ///< the value tells the device to answer nothing else: no Read will show it
 };
 Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
 
