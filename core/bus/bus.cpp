@@ -84,7 +84,7 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
 {
     if (Result<void> ready = prepare(); !ready)
         return ready;
-    if (m_late.concern(request) && !isMute(request, request.replies.front().id) && !isSilenced(request)) {
+    if (m_late.concern(request) && !isMute(request, request.replies.front().id)) {
         const std::uint8_t first = request.replies.front().id;
         const Result<bool> proven = fence(first);
         if (!proven)
@@ -96,6 +96,7 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
             for (std::size_t i = 1; i < request.replies.size(); ++i)
                 result.replies[i] = tl::unexpected(
                     messages::chainBroken(request.replies[i].id, first));
+            explainSilence(request, result);
             return {};
         }
         if (Result<void> ready = prepare(); !ready)
@@ -169,8 +170,7 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
 void Bus::remember(const Request &request, const ExchangeResult &result, LineTime sent)
 {
     const bool anyLost = std::ranges::any_of(result.replies, isMissing);
-    if (!isSilenced(request))
-        m_late.addMissing(request, result, sent);
+    m_late.addMissing(request, result, sent); // also of who is thought to answer no Read: somebody may have told it to
     for (std::size_t i = 0; i < result.replies.size() && i < request.replies.size(); ++i) {
         if (isMissing(result.replies[i]) && !result.isHidden(i))
             m_timing.missed(request.replies[i].id);

@@ -99,7 +99,6 @@ private:
     bool isMute(const Request &request, std::uint8_t id) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);
-    bool isSilenced(const Request &request) const;
     void explainSilence(const Request &request, ExchangeResult &result) const;
 
     Channel m_channel;

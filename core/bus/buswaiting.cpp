@@ -63,12 +63,6 @@ bool Bus::isMute(const Request &request, std::uint8_t id) const
     return request.isWrite() && traits(id).statusReturnLevel < 2;
 }
 
-/// Is this a Read of a device that answers none, by its Status Return Level?
-bool Bus::isSilenced(const Request &request) const
-{
-    return request.packet.instruction == Instruction::Read && traits(request.replies.front().id).statusReturnLevel < 1;
-}
-
 /// At a low Status Return Level silence is what was to be expected.
 void Bus::explainSilence(const Request &request, ExchangeResult &result) const
 {
@@ -76,7 +70,10 @@ void Bus::explainSilence(const Request &request, ExchangeResult &result) const
         return;
     for (std::size_t i = 0; i < result.replies.size(); ++i) {
         Result<Reply> &reply = result.replies[i];
-        if (reply || (reply.error().kind != ErrorKind::NothingReceived && reply.error().kind != ErrorKind::LateAnswer))
+        if (reply)
+            continue;
+        const ErrorKind kind = reply.error().kind;
+        if (kind != ErrorKind::NothingReceived && kind != ErrorKind::LateAnswer && kind != ErrorKind::NotSent)
             continue;
         const std::uint8_t id = request.replies[i].id;
         const int level = traits(id).statusReturnLevel;

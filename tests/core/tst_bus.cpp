@@ -299,6 +299,29 @@ private slots:
         }
     }
 
+    // The same of a Read: its level is thought to be 0, and it answers, late.
+    void whatASilentDeviceSaysIsNotTheNextReadsAnswer()
+    {
+        for (LineTime late = 1ms; late < 40ms; late += 137us) {
+            FakeLine line;
+            line.handler = [&](const Bytes &request) -> FakeLine::Answer {
+                if (request[7] == 1)
+                    return {{500us, oracle::status(3, 0, {6, 4, 38})}};
+                const bool first = line.sent.size() == 1;
+                return {{first ? late : LineTime(500us), oracle::status(3, 0, Bytes(4, first ? 9 : 1))}};
+            };
+            Traits traits;
+            traits.id = 3;
+            traits.statusReturnLevel = 0;
+            Bus bus(line);
+            bus.setTraits({traits});
+            (void)bus.exchange(readRequest({3, 116, 4}), 0);
+            const auto second = bus.exchange(readRequest({3, 132, 4}), 0);
+            const Result<Reply> &reply = second->replies.front();
+            QVERIFY2(!reply || reply->data == Bytes(4, 1), qPrintable(QString::number(late.count())));
+        }
+    }
+
     void stopEndsAnExchangeAtOnce()
     {
         FakeLine line;
