@@ -144,21 +144,31 @@ Result<Bytes> writeVerified(Bus &bus, const SpanData &data)
         return tl::unexpected(written.error());
     constexpr int Looks = 5;
     const auto length = static_cast<std::uint16_t>(data.data.size());
-    Result<ReadReply> shown;
+    Bytes shown;
+    std::optional<Error> unseen; // why the first look showed nothing
     for (int look = 0; look < Looks; ++look) {
         if (look > 0) {
             if (Result<void> waited = bus.wait(20ms); !waited)
                 return tl::unexpected(waited.error());
         }
-        shown = read(bus, {data.id, data.address, length});
-        if (!shown)
-            return tl::unexpected(messages::mayBeWritten(written ? shown.error() : written.error()));
-        if (shown->data == data.data)
-            return std::move(shown->data);
+        // While its EEPROM is being written a device may be deaf: not before the last look that is its last word.
+        Result<Reply> reply = single(bus, readRequest({data.id, data.address, length}), look == 0 ? 2 : 0);
+        if (reply && reply->data == data.data)
+            return std::move(reply->data);
+        if (reply) {
+            shown = std::move(reply->data);
+            continue;
+        }
+        unseen = unseen.value_or(reply.error());
+        const bool mayHearLater = mayHaveArrived(reply.error()) || reply.error().kind == ErrorKind::NotSent;
+        if (!mayHearLater)
+            return tl::unexpected(messages::mayBeWritten(written ? reply.error() : written.error()));
     }
+    if (shown.empty())
+        return tl::unexpected(messages::mayBeWritten(written ? *unseen : written.error()));
     if (!written) // the answer was lost, and reading back shows that the write was, too
-        return tl::unexpected(messages::notWritten(written.error(), data.data, shown->data));
-    return tl::unexpected(messages::notConfirmed(data.id, data.data, shown->data));
+        return tl::unexpected(messages::notWritten(written.error(), data.data, shown));
+    return tl::unexpected(messages::notConfirmed(data.id, data.data, shown));
 }
 
 } // namespace dynascope

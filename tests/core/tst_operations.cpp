@@ -223,6 +223,33 @@ private slots:
         QCOMPARE(writeVerified(refusingBus, {3, 9, {5}}).error().kind, ErrorKind::Refused);
     }
 
+    void readingBackWaitsForABusyDevice_data()
+    {
+        QTest::addColumn<int>("busy"); ///< ms that it hears nothing after the write
+        for (const int busy : {1, 10, 30, 60})
+            QTest::addRow("%d ms", busy) << busy;
+    }
+    void readingBackWaitsForABusyDevice()
+    {
+        QFETCH(int, busy);
+        FakeLine line;
+        FakeServos devices(line);
+        devices.servos[3].registers[9] = 1;
+        LineTime until{};
+        line.handler = [&](const Bytes &request) -> FakeLine::Answer {
+            if (line.now() < until)
+                return {};
+            FakeLine::Answer answer = devices.answer(request);
+            if (request[7] == 3)
+                until = line.now() + busy * 1ms;
+            return answer;
+        };
+        Bus bus(line);
+        const auto value = writeVerified(bus, {3, 9, {5}});
+        QVERIFY2(value, value ? "" : qPrintable(value.error().text));
+        QCOMPARE(*value, Bytes{5});
+    }
+
     void aLostAnswerToAWriteIsReadBack()
     {
         FakeLine line;
