@@ -51,11 +51,10 @@ LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate
 
 LineSession::~LineSession()
 {
-    closeThread();
+    close();
 }
 
-/// Everything that was asked of the thread gets its answer, even if that is Cancelled.
-void LineSession::closeThread()
+void LineSession::close()
 {
     if (!m_thread)
         return;
@@ -65,7 +64,7 @@ void LineSession::closeThread()
 
 void LineSession::startThread(const QString &name, int baudRate)
 {
-    closeThread();
+    close();
     m_thread.reset();
     ++m_generation;
     m_plan = {};

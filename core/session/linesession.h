@@ -30,6 +30,9 @@ public:
     int generation() const { return m_generation; } ///< counts the bus threads; a new one may stand at the old address
     /// A lost line once more, keeping its devices; under another name where its adapter came up elsewhere.
     void reopen(const QString &name = {});
+    /// Ends the bus thread. Everything that was asked of it gets its answer, even if that is Cancelled, before this
+    /// returns.
+    void close();
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
 
@@ -67,7 +70,6 @@ signals:
 
 private:
     void startThread(const QString &name, int baudRate);
-    void closeThread();
     void onThreadState();
     void takeBatches();
     void take(const Batch &batch);

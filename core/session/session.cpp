@@ -34,14 +34,17 @@ LineSession &Session::open(const QString &name, int baudRate)
 
 void Session::close(LineSession &line)
 {
-    const auto at = std::ranges::find_if(m_lines, [&line](const auto &other) { return other.get() == &line; });
-    if (at == m_lines.end())
+    const auto isIt = [&line](const auto &other) { return other.get() == &line; };
+    if (std::ranges::none_of(m_lines, isIt))
+        return;
+    line.close(); // what its bus thread still delivers finds a whole line, and may close it, too
+    if (std::ranges::none_of(m_lines, isIt))
         return;
     while (!line.devices().empty())
         line.forget(line.devices().back()->key());
     emit lineAboutToBeRemoved(&line);
-    // Out of the list first: what the dying bus thread still delivers must not find half a line.
-    const std::unique_ptr<LineSession> dying = std::move(*at);
+    const auto at = std::ranges::find_if(m_lines, isIt);
+    const std::unique_ptr<LineSession> dying = std::move(*at); // out of the list first
     m_lines.erase(at);
 }
 

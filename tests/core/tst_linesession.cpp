@@ -6,6 +6,7 @@
 #include "tests/support/testmain.h"
 
 #include <QSignalSpy>
+#include <QThread>
 
 #include <set>
 
@@ -103,6 +104,30 @@ private slots:
         QCOMPARE(device.state(), Device::State::Present);
         all.close();
         QCOMPARE(int(all.factory.simulated.servo(1, 57600)->value(u"Status Return Level")), 2);
+    }
+
+    void whatComesWhileALineClosesIsNotLost()
+    {
+        std::atomic<int> packets = 0;
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1,XM430-W350@57600:2"));
+        all.factory.onPacket = [&](int, ByteView) { ++packets; };
+        QSignalSpy added(&all.session, &Session::deviceAdded);
+        QSignalSpy removed(&all.session, &Session::deviceAboutToBeRemoved);
+        all.open(57600);
+        const std::vector<DeviceKey> keys{all.line->devices()[0]->key(), all.line->devices()[1]->key()};
+        all.line->forget(keys[1]);
+        Scanner scanner;
+        QSignalSpy finished(&scanner, &Scanner::finished);
+        scanner.start(*all.line, {{57600}, 0, 252});
+        while (packets < 3) // the broadcast Ping and the two found, none of whom was delivered yet
+            QThread::yieldCurrentThread();
+        all.close();
+        QCOMPARE(finished.size(), 1);
+        QCOMPARE(removed.size(), added.size());
+        all.open(57600);
+        QCOMPARE(all.line->devices()[0]->key(), keys[0]); // traces go on
+        QCOMPARE(all.line->devices()[1]->key(), keys[1]);
+        all.close();
     }
 
 private:
