@@ -12,18 +12,26 @@ StopControl::StopControl(Session &session, Commands &commands, QObject *parent)
 {
     m_prepareTimer.setSingleShot(true);
     m_prepareTimer.setInterval(0);
-    connect(&m_prepareTimer, &QTimer::timeout, this, &StopControl::prepare);
+    connect(&m_prepareTimer, &QTimer::timeout, this, [this] {
+        prepare();
+        if (m_active) // somebody went
+            update();
+    });
     connect(&session, &Session::lineAdded, this, &StopControl::follow);
     connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
         m_generations.erase(line);
         m_waiting.erase(line);
+        update();
     });
     connect(&session, &Session::deviceAdded, this, [this](Device *device) {
         m_prepareTimer.start();
         if (m_active)
             turnOff(*device);
     });
-    connect(&session, &Session::deviceAboutToBeRemoved, this, [this] { m_prepareTimer.start(); });
+    connect(&session, &Session::deviceAboutToBeRemoved, this, [this](Device *device) {
+        m_outcomes.erase(device->key());
+        m_prepareTimer.start();
+    });
     for (const auto &line : session.lines())
         follow(line.get());
 }

@@ -54,6 +54,28 @@ private slots:
         QFAIL("the change never came to its end");
     }
 
+    void whoWentIsNotWaitedFor()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1"));
+        all.open(57600);
+        const DeviceKey gone = all.line->heard({9, 57600, 1020, 45, false, {}}).key(); // was unplugged
+        all.stop.press();
+        QVERIFY(all.stop.isVerifying());
+        QVERIFY(VirtualSession::waitFor([&] { return !all.stop.isVerifying(); }));
+        QVERIFY(!all.stop.isConfirmed());
+        QCOMPARE(all.stop.report(),
+                 QStringLiteral("Torque is off on one device. Not confirmed: XM430-W350 #9."));
+        all.line->forget(gone);
+        QVERIFY(VirtualSession::waitFor([&] { return all.stop.report().endsWith(QStringLiteral("on one device.")); }));
+        QVERIFY(all.stop.isConfirmed());
+        all.stop.release();
+        all.stop.press();
+        QVERIFY(all.stop.isVerifying());
+        all.close();
+        QVERIFY(!all.stop.isVerifying());
+        QCOMPARE(all.stop.report(), QStringLiteral("No device confirmed that its torque is off."));
+    }
+
 private:
     struct Outcome {
         bool wasStopped = false; ///< the change itself, not only what came after it
