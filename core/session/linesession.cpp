@@ -96,6 +96,11 @@ void LineSession::onThreadState()
         for (const auto &device : m_devices)
             device->setAllStale();
         emit rateChanged();
+    } else { // perhaps at another rate than it was told: one that the port refused
+        for (const auto &device : m_devices) {
+            if (device->state() == Device::State::Parked || device->baudRate() != baudRate())
+                park(*device);
+        }
     }
     emit stateChanged();
 }

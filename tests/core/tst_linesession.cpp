@@ -130,6 +130,22 @@ private slots:
         all.close();
     }
 
+    void aRateThatThePortRefusesParksNobody()
+    {
+        FakeFactory factory([](FakeLine &line, FakeServos &) { line.refusedBaud = 57600; });
+        Session session(factory, m_catalog);
+        LineSession &line = session.open(QStringLiteral("fake"), 1'000'000);
+        const Device &here = line.heard({1, 1'000'000, 1020, 45, false, {}});
+        const Device &there = line.heard({2, 57600, 1020, 45, false, {}});
+        QVERIFY(VirtualSession::waitFor([&] { return line.state() == BusThread::State::Open; }));
+        QSignalSpy told(&line, &LineSession::stateChanged);
+        line.setWorkingBaudRate(57600);
+        QVERIFY(VirtualSession::waitFor([&] { return told.size() == 2; }));
+        QCOMPARE(line.baudRate(), 1'000'000);
+        QCOMPARE(here.state(), Device::State::Present);
+        QCOMPARE(there.state(), Device::State::Parked);
+    }
+
 private:
     /// One register, read every so often.
     static PollPlan planOf(const Device &device, QStringView name, std::chrono::milliseconds interval)
