@@ -17,7 +17,7 @@ namespace {
 constexpr LineTime Scheduling = 5ms;      ///< what a desktop may let a thread wait
 constexpr LineTime UnknownAdapter = 16ms; ///< FTDI's default latency timer
 constexpr LineTime PseudoTerminal = 50ms; ///< another process answers
-constexpr int WriteTimeout = 2000;        ///< ms; only a stuck driver takes that long
+constexpr int WriteTimeout = 200;         ///< ms without a byte taken: a stuck driver; STOP and closing wait as long
 constexpr double Tolerance = 0.03;        ///< what UARTs bear
 
 LineTime defaultAllowance(const QString &path)
@@ -153,7 +153,8 @@ Result<void> SerialLine::setBaudRate(int bitsPerSecond)
     if (m_port->error() == QSerialPort::ResourceError)
         return lose();
     m_port->clearError();
-    m_port->setBaudRate(before);
+    if (!m_port->setBaudRate(before))
+        return lose(); // nobody knows its rate now
     return tl::unexpected(messages::rateRefused(m_name, bitsPerSecond, made));
 }
 

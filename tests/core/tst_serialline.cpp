@@ -193,6 +193,22 @@ private slots:
         QCOMPARE(line->write(Bytes{1}).error().kind, ErrorKind::PortLost);
     }
 
+    void whoTakesNothingIsLostSoon()
+    {
+        PtyMaster wire; // and nobody reads there
+        const auto line = open(wire.path());
+        const Bytes much(100'000, 7);
+        LineTime begin{};
+        Result<void> written;
+        for (int i = 0; i < 100 && written; ++i) {
+            begin = line->now();
+            written = line->write(much);
+        }
+        QVERIFY(!written);
+        QCOMPARE(written.error().kind, ErrorKind::PortLost);
+        QVERIFY2(line->now() - begin < 1500ms, "STOP waits as long");
+    }
+
     void knowsPathsOnly()
     {
         SerialLineFactory factory;
