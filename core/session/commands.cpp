@@ -12,16 +12,15 @@ namespace {
 
 constexpr int LargestGap = 8; ///< bytes that are cheaper to read through than to ask again
 
-bool isGoal(const Field &field)
-{
-    return field.name.startsWith(QLatin1String("Goal "));
-}
-
-/// What a write to this field may have moved: the registers it resets, or nothing.
+/// What a write to this field may have moved: the registers it resets, torque that a goal turned on, or nothing.
 std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
 {
     if (&field == device.table().find(Known::TorqueEnable)) {
         return spansOf(device, [](const Field &other) { return isGoal(other); });
+    }
+    if (isGoal(field) && device.goalTurnsTorqueOn() && !device.isTorqueOn()) {
+        const Field *torque = device.table().find(Known::TorqueEnable);
+        return spansOf(device, [torque](const Field &other) { return &other == torque; });
     }
     if (field.resets.isEmpty())
         return {};
@@ -29,6 +28,11 @@ std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
 }
 
 } // namespace
+
+bool isGoal(const Field &field)
+{
+    return field.name.startsWith(QLatin1String("Goal "));
+}
 
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
 {

@@ -73,6 +73,8 @@ private:
     std::map<FieldKey, std::optional<Waiting>> m_writes; ///< on their way, each with the newest that waits behind it
 };
 
+bool isGoal(const Field &field); ///< what the motor is to follow
+
 /// The stretches of the table to read so that every field is covered, gaps of a few bytes read through, none longer than
 /// `longest` bytes. Only fields that `wanted` accepts.
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest = 128);

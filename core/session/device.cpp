@@ -56,6 +56,16 @@ EffectiveField Device::effective(int fieldIndex) const
                                 [this](QStringView name) { return raw(name); });
 }
 
+bool Device::goalTurnsTorqueOn() const
+{
+    constexpr int Bit = 3;
+    const int mode = m_table->indexOf(u"Drive Mode");
+    if (mode < 0)
+        return false;
+    const std::vector<BitField> &bits = m_table->fields()[static_cast<std::size_t>(mode)].bits;
+    return std::ranges::find(bits, Bit, &BitField::first) != bits.end() && (value(mode).raw.value_or(0) >> Bit & 1) != 0;
+}
+
 QString Device::lockReason(int fieldIndex) const
 {
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];

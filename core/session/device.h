@@ -69,6 +69,7 @@ public:
     std::optional<std::int64_t> raw(Known field) const;
     EffectiveField effective(int fieldIndex) const;
     bool isTorqueOn() const { return raw(Known::TorqueEnable).value_or(0) == 1; }
+    bool goalTurnsTorqueOn() const; ///< by its Drive Mode, where its firmware knows that
     /// Why the field can't be written now, in a sentence; empty where it can. Silence is no reason: a device may be told to
     /// be silent, by its Status Return Level, and hear nevertheless.
     QString lockReason(int fieldIndex) const;

@@ -29,7 +29,12 @@ void TorqueGuard::follow(Device *device)
 void TorqueGuard::onFields(Device *device, int first, int last)
 {
     // A write of 1 to Torque Enable, wherever in the window it was made, shows as a pending value.
-    const int torque = device->table().indexOf(u"Torque Enable");
+    const int torque = device->table().indexOf(Known::TorqueEnable);
+    // So does that of a goal, where Drive Mode lets it turn torque on.
+    for (int i = first; i <= last && device->goalTurnsTorqueOn() && !device->isTorqueOn(); ++i) {
+        if (device->value(i).pending && isGoal(device->table().fields()[static_cast<std::size_t>(i)]))
+            m_enabled.insert_or_assign(device->key(), false);
+    }
     if (torque < first || torque > last)
         return;
     const FieldValue &value = device->value(torque);
