@@ -128,6 +128,8 @@ QString sharedId(std::uint8_t id, Shared sign)
         case Shared::TwoModels: return Messages::tr("it answered as two different models");
         case Shared::MoreThanOne: return Messages::tr("more came than one answer");
         case Shared::Collide: return Messages::tr("their answers collide");
+        case Shared::ReadsDamaged: return Messages::tr("it answers a Ping well, but what is read of it comes damaged");
+        case Shared::ReadsDiffer: return Messages::tr("what is read of it jumps as no single device's registers do");
         case Shared::BothAnswered: break;
         }
         return Messages::tr("both answered the scan");

@@ -21,7 +21,7 @@ Error notSent(std::uint8_t id); ///< an answer to something earlier may still co
 Error withOthers(Error error, const std::vector<std::uint8_t> &others);
 QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found
 /// What tells that two devices have one ID.
-enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered };
+enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered, ReadsDamaged, ReadsDiffer };
 QString sharedId(std::uint8_t id, Shared sign);
 QString onlyTheScan(); ///< a device answered the broadcast Ping and no other
 QString torqueStillOn(std::uint8_t id); ///< STOP read it back

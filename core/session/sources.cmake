@@ -16,5 +16,6 @@ target_sources(dynascope_core PRIVATE
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h
+    session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h
 )

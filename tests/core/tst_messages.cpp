@@ -122,6 +122,10 @@ private slots:
         doubt("shared, two models", messages::Shared::TwoModels, QStringLiteral("it answered as two different models"));
         doubt("shared, more", messages::Shared::MoreThanOne, QStringLiteral("more came than one answer"));
         doubt("shared, collide", messages::Shared::Collide, QStringLiteral("their answers collide"));
+        doubt("shared, reads damaged", messages::Shared::ReadsDamaged,
+              QStringLiteral("it answers a Ping well, but what is read of it comes damaged"));
+        doubt("shared, reads differ", messages::Shared::ReadsDiffer,
+              QStringLiteral("what is read of it jumps as no single device's registers do"));
         doubt("shared, both", messages::Shared::BothAnswered, QStringLiteral("both answered the scan"));
         row("only the scan", {ErrorKind::NoHeader, messages::onlyTheScan()},
             QStringLiteral("it answered the scan, but no Ping of its own"));
