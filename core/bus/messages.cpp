@@ -250,6 +250,16 @@ Error portBusy(const QString &port, const QString &holder)
             .arg(port)};
 }
 
+QString portHolder(const QString &program, const QString &process)
+{
+    return Messages::tr("%1 (process %2)").arg(program.isEmpty() ? Messages::tr("a program") : program, process);
+}
+
+QString thisProgram()
+{
+    return Messages::tr("this program");
+}
+
 Error portNotSerial(const QString &port)
 {
     return {ErrorKind::PortUnsuitable, Messages::tr("%1 is not a serial port").arg(port)};

@@ -45,6 +45,9 @@ Error portNotFound(const QString &port);
 Error portEmpty(const QString &port); ///< the name exists, the hardware doesn't
 Error portForbidden(const QString &port);
 Error portBusy(const QString &port, const QString &holder); ///< `holder`: who has it, as far as known
+/// Who has a port, as portBusy() takes it. `program` empty: its name can't be read.
+QString portHolder(const QString &program, const QString &process);
+QString thisProgram();
 Error portNotSerial(const QString &port);
 Error portFailed(const QString &port, const QString &reason); ///< opening failed otherwise
 Error portLost(const QString &port);

@@ -48,6 +48,11 @@ private slots:
             QStringLiteral("/dev/ttyUSB0 is in use by another program: close that first (DYNAMIXEL Wizard, a robot's "
                            "controller, a "
                            "terminal, or this program started twice)"));
+        row("holder", {ErrorKind::PortBusy, messages::portHolder(QStringLiteral("screen"), QStringLiteral("7"))},
+            QStringLiteral("screen (process 7)"));
+        row("nameless holder", {ErrorKind::PortBusy, messages::portHolder({}, QStringLiteral("7"))},
+            QStringLiteral("a program (process 7)"));
+        row("held by itself", {ErrorKind::PortBusy, messages::thisProgram()}, QStringLiteral("this program"));
         row("not serial", messages::portNotSerial(port), QStringLiteral("/dev/ttyUSB0 is not a serial port"));
         row("lost", messages::portLost(port),
             QStringLiteral("/dev/ttyUSB0 is gone: unplugged, or closed by the other side"));
@@ -172,7 +177,9 @@ private slots:
             messages::withOthers(messages::asleep(1), {2}), messages::withOthers(messages::asleep(1), {2, 3}),
             {ErrorKind::NoHeader, messages::unreadable(2)},
             {ErrorKind::NoHeader, messages::sharedId(1, messages::Shared::Collide)},
-            {ErrorKind::NoHeader, messages::onlyTheScan()}, {ErrorKind::Stopped, messages::torqueStillOn(1)}};
+            {ErrorKind::PortBusy, messages::portHolder(port, port)}, {ErrorKind::PortBusy, messages::portHolder({}, port)},
+            {ErrorKind::PortBusy, messages::thisProgram()}, {ErrorKind::NoHeader, messages::onlyTheScan()},
+            {ErrorKind::Stopped, messages::torqueStillOn(1)}};
         QCoreApplication::removeTranslator(&brackets);
         for (const Error &error : all)
             QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));
