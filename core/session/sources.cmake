@@ -8,6 +8,7 @@ target_sources(dynascope_core PRIVATE
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
+    session/neighbours.cpp session/neighbours.h
     session/placecommands.cpp
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
