@@ -46,12 +46,12 @@ struct VolatileSpan {
 struct ScanHooks {
     /// With each device as it answers, and once more with one that turns out doubtful.
     std::function<void(const Found &)> found;
-    /// Between two exchanges, `part` of the scan's request (0..1) being done: here others may use the bus. An error ends
-    /// the scan with it. The longest exchange is the broadcast Ping, up to 0.8 s: devices that answer it in turn can't be
-    /// told to stop, and whoever spoke before would talk into their answers.
+    /// Between two exchanges, `part` of the scan's request (0..1) being done: here others may use the bus. An error
+    /// ends the scan with it. The longest exchange is the broadcast Ping, up to 0.8 s: devices that answer it in turn
+    /// can't be told to stop, and whoever spoke before would talk into their answers.
     std::function<Result<void>(double part)> between;
-    /// Where it names one, the scan ends with two reads of it, which tells two alike devices under one ID: they answer a
-    /// Ping as one.
+    /// Where it names one, the scan ends with two reads of it, which tells two alike devices under one ID: they answer
+    /// a Ping as one.
     std::function<std::optional<VolatileSpan>(const Found &)> volatileOf;
 };
 
@@ -61,13 +61,13 @@ struct BaudScan {
     QString unreadable;         ///< empty, or what came that belongs to none of them
 };
 
-/// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. Answers beyond the wanted IDs
-/// are dropped.
+/// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. Answers beyond the wanted
+/// IDs are dropped.
 Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const ScanHooks &hooks = {});
 
-/// Reads `span` of one device again and again, with `between` in between. Why it may be two of them; empty: no sign, or it
-/// answers no Read. Two reads where nothing is wrong; six until it is called doubtful: noise damages one of them, two
-/// devices nearly all.
+/// Reads `span` of one device again and again, with `between` in between. Why it may be two of them; empty: no sign, or
+/// it answers no Read. Two reads where nothing is wrong; six until it is called doubtful: noise damages one of them,
+/// two devices nearly all.
 Result<QString> compareReads(
     Bus &bus, const Found &device, const VolatileSpan &span, const std::function<Result<void>()> &between);
 

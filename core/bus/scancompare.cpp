@@ -49,7 +49,8 @@ bool ticksRight(const Sample &before, const Sample &after, int at)
         return true; // somebody else used the line in between: it may have gone round
     const ByteView first = before.data, second = after.data;
     const auto offset = static_cast<std::size_t>(at);
-    const std::uint32_t passed = (littleEndian(second.subspan(offset), 2) - littleEndian(first.subspan(offset), 2)) % TickPeriod;
+    const std::uint32_t passed
+        = (littleEndian(second.subspan(offset), 2) - littleEndian(first.subspan(offset), 2)) % TickPeriod;
     const double slack = TickSlack + ClockError * most;
     return passed >= least - slack && passed <= most + slack;
 }

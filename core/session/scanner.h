@@ -18,8 +18,9 @@ struct ScanRange {
 std::vector<int> likelyBauds(int lastUsed);
 const std::vector<int> &allBauds(); ///< every rate an X, MX or P device can have, ascending
 
-/// Looks for devices on one line; they appear in its LineSession as they answer. Commands that wait meanwhile run between
-/// two of its exchanges: of a sweep after one Ping, else after a broadcast Ping, which takes up to 0.8 s. GUI thread.
+/// Looks for devices on one line; they appear in its LineSession as they answer. Commands that wait meanwhile run
+/// between two of its exchanges: of a sweep after one Ping, else after a broadcast Ping, which takes up to 0.8 s. GUI
+/// thread.
 class Scanner : public QObject
 {
     Q_OBJECT

@@ -6,8 +6,8 @@
 
 namespace dynascope {
 
-/// What tells two alike devices of this table apart: Realtime Tick to Present Temperature, as far as they stand together.
-/// Nothing where the table has no such register. Pure.
+/// What tells two alike devices of this table apart: Realtime Tick to Present Temperature, as far as they stand
+/// together. Nothing where the table has no such register. Pure.
 std::optional<VolatileSpan> volatileSpanOf(const ControlTable &table);
 
 } // namespace dynascope

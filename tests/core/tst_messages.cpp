@@ -177,7 +177,8 @@ private slots:
             messages::withOthers(messages::asleep(1), {2}), messages::withOthers(messages::asleep(1), {2, 3}),
             {ErrorKind::NoHeader, messages::unreadable(2)},
             {ErrorKind::NoHeader, messages::sharedId(1, messages::Shared::Collide)},
-            {ErrorKind::PortBusy, messages::portHolder(port, port)}, {ErrorKind::PortBusy, messages::portHolder({}, port)},
+            {ErrorKind::PortBusy, messages::portHolder(port, port)},
+            {ErrorKind::PortBusy, messages::portHolder({}, port)},
             {ErrorKind::PortBusy, messages::thisProgram()}, {ErrorKind::NoHeader, messages::onlyTheScan()},
             {ErrorKind::Stopped, messages::torqueStillOn(1)}};
         QCoreApplication::removeTranslator(&brackets);

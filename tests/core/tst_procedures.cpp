@@ -78,7 +78,8 @@ private slots:
         const Bytes stray = oracle::status(9, 0, {0xFC, 3, 45});
         Bytes damaged = oracle::status(7, 0, {0xFC, 3, 45});
         damaged[9] ^= 1;
-        const QString taken = QStringLiteral("ID 7 at 57600 bps is taken: something answers there; nothing was written");
+        const QString taken
+            = QStringLiteral("ID 7 at 57600 bps is taken: something answers there; nothing was written");
         const QString another = QStringLiteral("device 7 did not answer, but device 9 did");
         QTest::newRow("nothing") << Bytes() << 0 << QString();
         QTest::newRow("somebody") << oracle::status(7, 0, {0xFC, 3, 45}) << 99 << taken;

@@ -18,11 +18,7 @@ namespace {
 /// The first 16 registers: Realtime Tick at 0, Present Position at 2.
 VolatileSpan fakeSpan()
 {
-    VolatileSpan span;
-    span.length = 16;
-    span.tickAt = 0;
-    span.steady.push_back({2, 4, 100, 1000});
-    return span;
+    return {0, 16, 0, {{2, 4, 100, 1000}}};
 }
 
 /// One Read of `fakeSpan()`.
@@ -47,7 +43,9 @@ class TestScan : public QObject
     ScanHooks comparing() const
     {
         ScanHooks hooks;
-        hooks.volatileOf = [this](const Found &found) { return volatileSpanOf(*m_catalog.find(found.modelNumber, found.firmware)); };
+        hooks.volatileOf = [this](const Found &found) {
+            return volatileSpanOf(*m_catalog.find(found.modelNumber, found.firmware));
+        };
         return hooks;
     }
 
@@ -87,7 +85,8 @@ private slots:
         Bus bus(line);
         const auto found = scanBaud(bus, {0, 252}, {});
         QCOMPARE(found->devices.size(), std::size_t(1));
-        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
+        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")),
+                 qPrintable(found->devices.front().doubt));
     }
 
     void scanFindsWhoCanNotBeRead()
@@ -105,7 +104,8 @@ private slots:
         const auto found = scanBaud(bus, {0, 252}, {});
         QCOMPARE(found->devices.size(), std::size_t(1));
         QCOMPARE(found->devices.front().id, std::uint8_t(1));
-        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
+        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")),
+                 qPrintable(found->devices.front().doubt));
     }
 
     void scanSaysThatSomebodyIsThere()
@@ -183,7 +183,8 @@ private slots:
         };
         Bus bus(line);
         std::vector<int> shown;
-        const auto found = scanBaud(bus, {0, 20, true}, {[&](const Found &device) { shown.push_back(device.id); }, {}, {}});
+        const auto found
+            = scanBaud(bus, {0, 20, true}, {[&](const Found &device) { shown.push_back(device.id); }, {}, {}});
         QVERIFY(found);
         QCOMPARE(shown, (std::vector<int>{1, 7}));
         QCOMPARE(line.sent.size(), std::size_t(21));
@@ -224,7 +225,8 @@ private slots:
         QVERIFY(found);
         for (const Found &device : found->devices) {
             const bool doubted = device.doubt.contains(QStringLiteral("two devices seem to share ID 1"));
-            QVERIFY2(doubted == (device.id == 1), qPrintable(QStringLiteral("%1: %2").arg(device.id).arg(device.doubt)));
+            QVERIFY2(doubted == (device.id == 1),
+                     qPrintable(QStringLiteral("%1: %2").arg(device.id).arg(device.doubt)));
             QCOMPARE(std::ranges::count(told, device), 1);
         }
     }

@@ -48,7 +48,8 @@ private slots:
         row("a definition of the same file", "{}",
             R"({"definitions": {"LED": {"size": 1}}, "registers": {"LED": {"address": 65}}})",
             R"({"definitions": {"LED": {"size": 1}}, "registers": {"LED": {"size": 1, "address": 65}}})");
-        row("one that is there doesn't", R"({"definitions": {"LED": {"size": 1}}, "registers": {"LED": {"address": 65}}})",
+        row("one that is there doesn't",
+            R"({"definitions": {"LED": {"size": 1}}, "registers": {"LED": {"address": 65}}})",
             R"({"registers": {"LED": {"address": 66}}})",
             R"({"definitions": {"LED": {"size": 1}}, "registers": {"LED": {"address": 66}}})");
         row("a register is named without its section", R"({"registers": {"LED": {"size": 1}}})",

@@ -69,8 +69,8 @@ bool isSomebody(const Error &error)
     }
 }
 
-/// Tried, not believed: a device at a rate that the port can't do would be lost to it. `known` is a device that answers:
-/// that it does proves that nothing older is under way which could be mistaken for somebody at `place`.
+/// Tried, not believed: a device at a rate that the port can't do would be lost to it. `known` is a device that
+/// answers: that it does proves that nothing older is under way which could be mistaken for somebody at `place`.
 Result<void> checkFree(JobContext &context, const DevicePlace &place, const DevicePlace &known)
 {
     constexpr int Attempts = 3;
