@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "core/table/catalog.h"
 
 #include <map>

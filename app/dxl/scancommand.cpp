@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
-#include "core/bus/operations.h"
+#include "core/bus/scan.h"
+#include "core/session/volatilespan.h"
 
 namespace dynascope::dxl {
 
@@ -58,7 +59,12 @@ Result<std::size_t> scanAt(const Work &work, int baud)
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
     // Printed when the rate is done: what makes an answer doubtful comes after it.
-    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last, work.options.sweep}, {});
+    ScanHooks hooks;
+    hooks.volatileOf = [&work](const Found &device) {
+        const ControlTablePtr table = work.catalog.find(device.modelNumber, device.firmware);
+        return table ? volatileSpanOf(*table) : std::nullopt;
+    };
+    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last, work.options.sweep}, hooks);
     if (!found)
         return tl::unexpected(found.error());
     for (const Found &device : found->devices)

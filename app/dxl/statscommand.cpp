@@ -2,6 +2,7 @@
 #include "app/dxl/commands.h"
 #include "app/dxl/interrupt.h"
 #include "app/dxl/statsreport.h"
+#include "core/bus/messages.h"
 #include "core/bus/poller.h"
 
 #include <algorithm>
@@ -68,9 +69,13 @@ ExitCode statsCommand(const Work &work)
     ExitCode code = ExitCode::Done;
     for (const StatsDevice &device : all->devices) {
         const DeviceQuality *quality = outcome.quality.device(device.found.id);
-        if (quality && quality->good == 0 && quality->bad() > 0)
-            code = work.output.fail({device.error.kind,
-                QStringLiteral("ID %1 never answered; the first time, %2").arg(device.found.id).arg(device.error.text)});
+        if (!quality || quality->good > 0 || quality->bad() == 0)
+            continue;
+        std::vector<std::uint8_t> others = work.bus.alive();
+        std::erase(others, device.found.id);
+        const QString text
+            = QStringLiteral("ID %1 never answered; the first time, %2").arg(device.found.id).arg(device.error.text);
+        code = work.output.fail(messages::withOthers({device.error.kind, text}, others));
     }
     return code;
 }

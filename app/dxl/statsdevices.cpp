@@ -53,6 +53,7 @@ Traits traitsOf(Bus &bus, const Found &found, const ControlTable *table)
     if (!table)
         return traits;
     traits.fastReads = table->hasFastReads(found.firmware);
+    traits.receiveBuffer = table->receiveBuffer();
     if (const auto delay = valueOf(bus, found.id, *table, u"Return Delay Time"))
         traits.returnDelay = std::chrono::microseconds(*delay * 2 + 8);
     return traits;

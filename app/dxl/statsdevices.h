@@ -3,6 +3,7 @@
 
 #include "app/dxl/commands.h"
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "core/bus/poll_values.h"
 
 namespace dynascope::dxl {

@@ -128,6 +128,8 @@ QString sharedId(std::uint8_t id, Shared sign)
         case Shared::TwoModels: return Messages::tr("it answered as two different models");
         case Shared::MoreThanOne: return Messages::tr("more came than one answer");
         case Shared::Collide: return Messages::tr("their answers collide");
+        case Shared::ReadsDamaged: return Messages::tr("it answers a Ping well, but what is read of it comes damaged");
+        case Shared::ReadsDiffer: return Messages::tr("what is read of it jumps as no single device's registers do");
         case Shared::BothAnswered: break;
         }
         return Messages::tr("both answered the scan");
@@ -255,6 +257,16 @@ Error portBusy(const QString &port, const QString &holder)
         Messages::tr("%1 is in use by another program: close that first (DYNAMIXEL Wizard, a "
                        "robot's controller, a terminal, or this program started twice)")
             .arg(port)};
+}
+
+QString portHolder(const QString &program, const QString &process)
+{
+    return Messages::tr("%1 (process %2)").arg(program.isEmpty() ? Messages::tr("a program") : program, process);
+}
+
+QString thisProgram()
+{
+    return Messages::tr("this program");
 }
 
 Error portNotSerial(const QString &port)

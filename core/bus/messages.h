@@ -21,7 +21,7 @@ Error notSent(std::uint8_t id); ///< an answer to something earlier may still co
 Error withOthers(Error error, const std::vector<std::uint8_t> &others);
 QString unreadable(std::size_t bytes); ///< of a scan: bytes that belong to no device it found
 /// What tells that two devices have one ID.
-enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered };
+enum class Shared { Damaged, TwoModels, MoreThanOne, Collide, BothAnswered, ReadsDamaged, ReadsDiffer };
 QString sharedId(std::uint8_t id, Shared sign);
 QString onlyTheScan(); ///< a device answered the broadcast Ping and no other
 QString torqueStillOn(std::uint8_t id); ///< STOP read it back
@@ -46,6 +46,9 @@ Error portNotFound(const QString &port);
 Error portEmpty(const QString &port); ///< the name exists, the hardware doesn't
 Error portForbidden(const QString &port);
 Error portBusy(const QString &port, const QString &holder); ///< `holder`: who has it, as far as known
+/// Who has a port, as portBusy() takes it. `program` empty: its name can't be read.
+QString portHolder(const QString &program, const QString &process);
+QString thisProgram();
 Error portNotSerial(const QString &port);
 Error portFailed(const QString &port, const QString &reason); ///< opening failed otherwise
 Error portLost(const QString &port);

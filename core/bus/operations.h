@@ -44,33 +44,4 @@ Result<void> writeMany(Bus &bus, std::span<const SpanData> writes);
 /// NotConfirmed where it differs in the end.
 Result<Bytes> writeVerified(Bus &bus, const SpanData &data);
 
-/// A device as a scan saw it.
-struct Found {
-    std::uint8_t id = 0;
-    int baudRate = 57600;
-    std::uint16_t modelNumber = 0;
-    std::uint8_t firmware = 0;
-    bool alert = false;
-    QString doubt; ///< empty, or why this may not be one healthy device ("two devices seem to share this ID")
-
-    friend bool operator==(const Found &, const Found &) = default;
-};
-
-struct ScanRequest {
-    int firstId = 0, lastId = MaximumId;
-    /// One Ping after the other instead of the broadcast one, for buses on which that fails. Slow: each absent ID costs
-    /// a whole deadline.
-    bool sweep = false;
-};
-
-/// What a scan at one rate came to.
-struct BaudScan {
-    std::vector<Found> devices; ///< by ID
-    QString unreadable;         ///< empty, or what came that belongs to none of them
-};
-
-/// Broadcast Ping at the line's present baud rate, each answer confirmed by a unicast Ping. `found` is called as they
-/// come, and once more for a device that turns out doubtful. Answers beyond the wanted IDs are dropped.
-Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found);
-
 } // namespace dynascope

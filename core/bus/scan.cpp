@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/scan.h"
+
 #include "core/bus/messages.h"
-#include "core/bus/operations.h"
 
 #include <algorithm>
 #include <set>
@@ -26,38 +27,76 @@ Found foundFrom(const Reply &reply, int baudRate)
     return found;
 }
 
-/// Asks one device by itself and listens a little longer for a second voice. The reason for doubt; empty: none.
-Result<QString> doubtOf(Bus &bus, const Found &found)
+/// The hooks, and what came while nobody else used the line.
+class Scan
 {
-    const Result<ExchangeResult> answer = bus.exchange(pingRequest(found.id), 1);
+public:
+    Scan(Bus &bus, const ScanHooks &hooks) : m_bus(bus), m_hooks(hooks) { }
+
+    /// Lets others use the line, whose bytes are none of ours.
+    Result<void> between(double part)
+    {
+        if (!m_hooks.between)
+            return {};
+        const quint64 before = m_bus.statistics().bytesReceived;
+        Result<void> go = m_hooks.between(part);
+        m_others += m_bus.statistics().bytesReceived - before;
+        return go;
+    }
+    void found(const Found &device) const
+    {
+        if (m_hooks.found)
+            m_hooks.found(device);
+    }
+    quint64 received() const { return m_bus.statistics().bytesReceived - m_others; }
+    /// Listens a little longer for a second voice.
+    Result<void> listen() { return m_bus.wait(m_bus.line().hostAllowance() + 1500us); }
+
+    Bus &bus() { return m_bus; }
+    const ScanHooks &hooks() const { return m_hooks; }
+    BaudScan result;
+    std::size_t unread = 0; ///< bytes and packets that are nobody's
+
+private:
+    Bus &m_bus;
+    const ScanHooks &m_hooks;
+    quint64 m_others = 0;
+};
+
+/// Asks one device by itself. The reason for doubt; empty: none.
+Result<QString> doubtOf(Scan &scan, const Found &found)
+{
+    const Result<ExchangeResult> answer = scan.bus().exchange(pingRequest(found.id), 1);
     if (!answer)
         return tl::unexpected(answer.error());
-    const quint64 before = bus.statistics().bytesReceived;
-    if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
+    const Observations &seen = answer->seen;
+    const quint64 before = scan.received();
+    if (Result<void> listened = scan.listen(); !listened)
         return tl::unexpected(listened.error());
-    const bool more = bus.statistics().bytesReceived != before
-        || std::ranges::count(answer->seen.strayIds, found.id) > 0;
+    const bool more = scan.received() != before || std::ranges::count(seen.strayIds, found.id) > 0;
     const Result<Reply> &reply = answer->replies.front();
-    if (!reply && answer->seen.bytesReceived > 0)
+    if (!reply && seen.bytesReceived > 0)
         return messages::sharedId(found.id, Shared::Damaged);
     if (!reply)
         return messages::onlyTheScan();
     if (foundFrom(*reply, found.baudRate).modelNumber != found.modelNumber)
         return messages::sharedId(found.id, Shared::TwoModels);
-    if (more || answer->seen.damagedPackets > 0)
+    if (more || seen.damagedPackets > 0)
         return messages::sharedId(found.id, Shared::MoreThanOne);
     return QString();
 }
 
 /// A Ping for each, one right after the other. Is it sure that each is one healthy device? Else they are worth a second
 /// look, one by one.
-Result<bool> confirmAll(Bus &bus, const std::vector<Found> &devices)
+Result<bool> confirmAll(Scan &scan)
 {
-    const quint64 before = bus.statistics().bytesReceived;
+    const quint64 before = scan.received();
     quint64 heard = 0;
     bool clean = true;
-    for (const Found &found : devices) {
-        const Result<ExchangeResult> answer = bus.exchange(pingRequest(found.id), 0);
+    for (const Found &found : scan.result.devices) {
+        if (Result<void> go = scan.between(1); !go)
+            return tl::unexpected(go.error());
+        const Result<ExchangeResult> answer = scan.bus().exchange(pingRequest(found.id), 0);
         if (!answer)
             return tl::unexpected(answer.error());
         const Result<Reply> &reply = answer->replies.front();
@@ -66,9 +105,9 @@ Result<bool> confirmAll(Bus &bus, const std::vector<Found> &devices)
         clean = clean && reply && foundFrom(*reply, found.baudRate).modelNumber == found.modelNumber
             && seen.strayPackets == 0 && seen.damagedPackets == 0 && seen.noiseBytes == 0;
     }
-    if (Result<void> listened = bus.wait(bus.line().hostAllowance() + 1500us); !listened)
+    if (Result<void> listened = scan.listen(); !listened)
         return tl::unexpected(listened.error());
-    return clean && bus.statistics().bytesReceived - before == heard; // and nothing came in between
+    return clean && scan.received() - before == heard; // and nothing came in between
 }
 
 /// Who may be behind answers that could not be read: the IDs in damaged packets, else the usual ones.
@@ -87,99 +126,146 @@ std::set<std::uint8_t> suspects(const Observations &seen, const std::vector<Foun
     return ids;
 }
 
-/// Looks for devices one ID at a time. Noise is nobody's; `unread` counts it.
-Result<void> askEach(Bus &bus, const std::set<std::uint8_t> &ids, int retries, BaudScan &scan, std::size_t &unread,
-    const std::function<void(const Found &)> &found)
+/// One that answered a Ping of its own: did it alone? `answer` is what came to that Ping.
+Result<QString> doubtOfAnswer(Scan &scan, const Found &device, const Observations &seen)
 {
+    const quint64 before = scan.received();
+    if (Result<void> listened = scan.listen(); !listened)
+        return tl::unexpected(listened.error());
+    if (std::ranges::count(seen.damagedIds, device.id) > 0)
+        return messages::sharedId(device.id, Shared::Collide);
+    const bool isStray = std::ranges::count(seen.strayIds, device.id) > 0;
+    if (!isStray && scan.received() == before)
+        return QString();
+    Result<QString> doubt = doubtOf(scan, device);
+    if (doubt && doubt->isEmpty() && isStray)
+        return messages::sharedId(device.id, Shared::BothAnswered);
+    return doubt;
+}
+
+/// Looks for devices one ID at a time. Noise is nobody's.
+Result<void> askEach(Scan &scan, const std::set<std::uint8_t> &ids, bool isSweep)
+{
+    const int rate = scan.bus().line().baudRate();
+    std::size_t asked = 0;
     for (const std::uint8_t id : ids) {
-        const Result<ExchangeResult> answer = bus.exchange(pingRequest(id), retries);
+        const double part = static_cast<double>(asked++) / static_cast<double>(ids.size());
+        if (Result<void> go = scan.between(isSweep ? part : 1); !go)
+            return go;
+        const Result<ExchangeResult> answer = scan.bus().exchange(pingRequest(id), isSweep ? 0 : 1);
         if (!answer)
             return tl::unexpected(answer.error());
         const Result<Reply> &reply = answer->replies.front();
         const Observations &seen = answer->seen;
-        const bool damaged = std::ranges::count(seen.damagedIds, id) > 0;
-        if (!reply && !damaged) {
-            unread += seen.noiseBytes + (seen.damagedPackets > 0 ? 1 : 0);
+        if (!reply && std::ranges::count(seen.damagedIds, id) == 0) {
+            scan.unread += seen.noiseBytes + (seen.damagedPackets > 0 ? 1 : 0);
             continue;
         }
         Found device;
         if (reply)
-            device = foundFrom(*reply, bus.line().baudRate());
+            device = foundFrom(*reply, rate);
         device.id = id;
-        device.baudRate = bus.line().baudRate();
-        if (!reply || damaged)
-            device.doubt = messages::sharedId(id, Shared::Collide);
-        scan.devices.push_back(device);
-        if (found)
-            found(device);
+        device.baudRate = rate;
+        const Result<QString> doubt
+            = reply ? doubtOfAnswer(scan, device, seen) : messages::sharedId(id, Shared::Collide);
+        if (!doubt)
+            return tl::unexpected(doubt.error());
+        device.doubt = *doubt;
+        scan.result.devices.push_back(device);
+        scan.found(device);
     }
     return {};
 }
 
-Result<BaudScan> sweep(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found)
-{
-    std::set<std::uint8_t> ids;
-    for (int id = wanted.firstId; id <= std::min<int>(wanted.lastId, MaximumId); ++id)
-        ids.insert(static_cast<std::uint8_t>(id));
-    BaudScan scan;
-    std::size_t unread = 0;
-    if (Result<void> asked = askEach(bus, ids, 0, scan, unread, found); !asked)
-        return tl::unexpected(asked.error());
-    if (unread > 0)
-        scan.unreadable = messages::unreadable(unread);
-    return scan;
-}
-
 /// The second look, one by one, where the first was not clean.
-Result<void> doubtEach(Bus &bus, const Observations &seen, BaudScan &scan, const std::function<void(const Found &)> &found)
+Result<void> doubtEach(Scan &scan, const Observations &seen)
 {
-    for (Found &device : scan.devices) {
-        Result<QString> doubt = doubtOf(bus, device);
+    for (Found &device : scan.result.devices) {
+        if (Result<void> go = scan.between(1); !go)
+            return go;
+        Result<QString> doubt = doubtOf(scan, device);
         if (!doubt)
             return tl::unexpected(doubt.error());
         device.doubt = *doubt;
         if (device.doubt.isEmpty() && std::ranges::count(seen.strayIds, device.id) > 0)
             device.doubt = messages::sharedId(device.id, Shared::BothAnswered);
-        if (!device.doubt.isEmpty() && found)
-            found(device);
+        if (!device.doubt.isEmpty())
+            scan.found(device);
     }
+    return {};
+}
+
+/// When all are known and shown: whether one that seems healthy is two that are alike.
+Result<void> compareEach(Scan &scan)
+{
+    for (Found &device : scan.result.devices) {
+        const std::optional<VolatileSpan> span
+            = scan.hooks().volatileOf && device.doubt.isEmpty() ? scan.hooks().volatileOf(device) : std::nullopt;
+        if (!span)
+            continue;
+        Result<QString> doubt = compareReads(scan.bus(), device, *span, [&] { return scan.between(1); });
+        if (!doubt)
+            return tl::unexpected(doubt.error());
+        device.doubt = *doubt;
+        if (!device.doubt.isEmpty())
+            scan.found(device);
+    }
+    return {};
+}
+
+Result<void> sweep(Scan &scan, const ScanRequest &wanted)
+{
+    std::set<std::uint8_t> ids;
+    for (int id = wanted.firstId; id <= std::min<int>(wanted.lastId, MaximumId); ++id)
+        ids.insert(static_cast<std::uint8_t>(id));
+    if (Result<void> asked = askEach(scan, ids, true); !asked)
+        return asked;
+    if (scan.unread > 0)
+        scan.result.unreadable = messages::unreadable(scan.unread);
+    return {};
+}
+
+Result<void> broadcast(Scan &scan, const ScanRequest &wanted)
+{
+    std::vector<Found> &devices = scan.result.devices;
+    const Result<ExchangeResult> answers = scan.bus().broadcastPing(wanted.lastId, [&](const Reply &reply) {
+        if (reply.id < wanted.firstId || reply.id > wanted.lastId)
+            return;
+        devices.push_back(foundFrom(reply, scan.bus().line().baudRate()));
+        scan.found(devices.back());
+    });
+    if (!answers)
+        return tl::unexpected(answers.error());
+    const Observations &seen = answers->seen;
+    const Result<bool> sure = confirmAll(scan);
+    if (!sure)
+        return tl::unexpected(sure.error());
+    if (!*sure || !seen.strayIds.empty()) {
+        if (Result<void> doubted = doubtEach(scan, seen); !doubted)
+            return doubted;
+    }
+    const std::size_t known = devices.size();
+    const std::set<std::uint8_t> ids = suspects(seen, devices, wanted.firstId, wanted.lastId);
+    scan.unread = seen.noiseBytes;
+    if (Result<void> probed = askEach(scan, ids, false); !probed)
+        return probed;
+    const bool doubtful = std::ranges::any_of(devices, [](const Found &one) { return !one.doubt.isEmpty(); });
+    if (devices.size() == known && !doubtful && (scan.unread > 0 || seen.damagedPackets > 0))
+        scan.result.unreadable = messages::unreadable(std::max(scan.unread, seen.bytesReceived));
+    std::ranges::sort(devices, {}, &Found::id);
     return {};
 }
 
 } // namespace
 
-Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const std::function<void(const Found &)> &found)
+Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const ScanHooks &hooks)
 {
-    if (wanted.sweep)
-        return sweep(bus, wanted, found);
-    BaudScan scan;
-    const Result<ExchangeResult> answers = bus.broadcastPing(wanted.lastId, [&](const Reply &reply) {
-        if (reply.id < wanted.firstId || reply.id > wanted.lastId)
-            return;
-        scan.devices.push_back(foundFrom(reply, bus.line().baudRate()));
-        if (found)
-            found(scan.devices.back());
-    });
-    if (!answers)
-        return tl::unexpected(answers.error());
-    const Observations &seen = answers->seen;
-    const Result<bool> sure = confirmAll(bus, scan.devices);
-    if (!sure)
-        return tl::unexpected(sure.error());
-    if (!*sure || !seen.strayIds.empty()) {
-        if (Result<void> doubted = doubtEach(bus, seen, scan, found); !doubted)
-            return tl::unexpected(doubted.error());
-    }
-    const std::size_t known = scan.devices.size();
-    const std::set<std::uint8_t> ids = suspects(seen, scan.devices, wanted.firstId, wanted.lastId);
-    std::size_t unread = seen.noiseBytes;
-    if (Result<void> probed = askEach(bus, ids, 1, scan, unread, found); !probed)
-        return tl::unexpected(probed.error());
-    const bool doubtful = std::ranges::any_of(scan.devices, [](const Found &one) { return !one.doubt.isEmpty(); });
-    if (scan.devices.size() == known && !doubtful && (unread > 0 || seen.damagedPackets > 0))
-        scan.unreadable = messages::unreadable(std::max(unread, seen.bytesReceived));
-    std::ranges::sort(scan.devices, {}, &Found::id);
-    return scan;
+    Scan scan(bus, hooks);
+    if (Result<void> looked = wanted.sweep ? sweep(scan, wanted) : broadcast(scan, wanted); !looked)
+        return tl::unexpected(looked.error());
+    if (Result<void> compared = compareEach(scan); !compared)
+        return tl::unexpected(compared.error());
+    return std::move(scan.result);
 }
 
 } // namespace dynascope

@@ -74,12 +74,12 @@ QString holderOf(const QString &path)
         if (!files.contains(path) || isOtherEnd(files, path))
             continue;
         QFile name(QStringLiteral("/proc/%1/comm").arg(process));
-        const QByteArray text = name.open(QIODevice::ReadOnly) ? name.readAll().trimmed() : QByteArray("a program");
-        return QStringLiteral("%1 (process %2)").arg(QString::fromUtf8(text), process);
+        const QByteArray program = name.open(QIODevice::ReadOnly) ? name.readAll().trimmed() : QByteArray();
+        return messages::portHolder(QString::fromUtf8(program), process);
     }
     // Whoever asks may have tried to open it just now.
     if (filesOf(QString::number(getpid())).count(path) > 1)
-        return QStringLiteral("this program");
+        return messages::thisProgram();
 #else
     Q_UNUSED(path)
 #endif

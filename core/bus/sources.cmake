@@ -22,7 +22,7 @@ target_sources(dynascope_core PRIVATE
     bus/readplan.cpp bus/readplan.h
     bus/remainder.cpp bus/remainder.h
     bus/rfc2217.cpp bus/rfc2217.h
-    bus/scan.cpp
+    bus/scan.cpp bus/scan.h bus/scancompare.cpp
     bus/serialbaud_posix.cpp
     bus/serialline.cpp bus/serialline.h bus/seriallinefactory.h
     bus/serialportlist.cpp

@@ -35,6 +35,7 @@ Traits Device::traits() const
         traits.statusReturnLevel = static_cast<std::uint8_t>(*level);
     traits.firmware = m_found.firmware;
     traits.fastReads = m_table->hasFastReads(m_found.firmware);
+    traits.receiveBuffer = m_table->receiveBuffer();
     return traits;
 }
 

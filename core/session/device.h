@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bus/poll_values.h"
-#include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "core/table/controltable.h"
 
 #include <QObject>

@@ -35,6 +35,7 @@ public:
     void close();
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
+    const Catalog &catalog() const { return m_catalog; }
 
     /// In the order of baud rate and ID.
     const std::vector<std::unique_ptr<Device>> &devices() const { return m_devices; }

@@ -40,8 +40,11 @@ void Commands::ping(Device &device, Done done)
                     present->setState(Device::State::Silent);
                 return refuse(present, found.error(), done);
             }
-            if (present)
-                present->line()->heard(*found);
+            if (present) {
+                Found answered = *found;
+                answered.doubt = present->doubt(); // two under one ID may answer a Ping as one
+                present->line()->heard(answered);
+            }
             if (done)
                 done({});
         });

@@ -2,6 +2,8 @@
 #include "core/session/scanner.h"
 
 #include "core/session/procedures/atbaud.h"
+#include "core/session/volatilespan.h"
+#include "core/table/catalog.h"
 
 #include <algorithm>
 
@@ -9,51 +11,90 @@ namespace dynascope {
 namespace {
 
 struct ScanSummary {
-    int found = 0;
     QStringList trouble; ///< bauds that could not be tried, unreadable answers
 };
 
 /// What the scan tells the GUI while it runs.
 struct ScanNotes {
     std::function<void(const Found &)> found;
-    std::function<void(double progress, int baud)> baudBegins;
+    std::function<void(double progress, int baud)> goesOn;
 };
 
-Result<ScanSummary> scan(JobContext &context, const ScanRange &range, const ScanNotes &notes)
+/// One scan of several rates, on the bus thread.
+class RatesScan
 {
-    ScanSummary summary;
-    const AtBaud home(context.bus(), context.bus().line().baudRate());
-    const Line &line = context.bus().line();
-    const std::vector<int> bauds = line.canSetBaudRate() ? range.bauds : std::vector{line.baudRate()};
-    for (std::size_t step = 0; step < bauds.size(); ++step) {
-        if (const auto go = context.checkpoint(); !go)
-            return tl::unexpected(go.error());
-        const int baud = bauds[step];
-        const double progress = static_cast<double>(step) / static_cast<double>(bauds.size());
-        context.post([notes, progress, baud] { notes.baudBegins(progress, baud); });
-        if (const auto set = context.bus().setBaudRate(baud); !set) {
-            if (set.error().kind != ErrorKind::PortUnsuitable)
-                return tl::unexpected(set.error());
-            summary.trouble << set.error().text;
-            continue;
-        }
-        const auto report = [&](const Found &found) {
-            context.post([notes, found] { notes.found(found); });
+public:
+    RatesScan(JobContext &context, const ScanRange &range, const Catalog &catalog, const ScanNotes &notes)
+        : m_context(context), m_range(range), m_notes(notes)
+    {
+        m_hooks.found = [this](const Found &found) {
+            m_context.post([notes = m_notes, found] { notes.found(found); });
         };
-        const auto found = scanBaud(context.bus(), {range.firstId, range.lastId, range.sweep}, report);
-        if (found) {
-            summary.found += static_cast<int>(found->devices.size());
-            if (!found->unreadable.isEmpty())
-                summary.trouble << found->unreadable;
-            continue;
-        }
-        const ErrorKind kind = found.error().kind;
-        if (kind == ErrorKind::PortLost || kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled)
-            return tl::unexpected(found.error());
-        summary.trouble << found.error().text;
+        m_hooks.between = [this](double part) {
+            tell(part);
+            return m_context.checkpoint();
+        };
+        m_hooks.volatileOf = [&catalog](const Found &found) {
+            const ControlTablePtr table = catalog.find(found.modelNumber, found.firmware);
+            return table ? volatileSpanOf(*table) : std::nullopt;
+        };
     }
-    return summary;
-}
+
+    Result<ScanSummary> run()
+    {
+        Bus &bus = m_context.bus();
+        const AtBaud home(bus, bus.line().baudRate());
+        m_bauds = bus.line().canSetBaudRate() ? m_range.bauds : std::vector{bus.line().baudRate()};
+        for (; m_step < m_bauds.size(); ++m_step) {
+            if (const auto go = m_context.checkpoint(); !go)
+                return tl::unexpected(go.error());
+            m_toldPercent = -1;
+            tell(0);
+            const Result<void> scanned = scanRate();
+            if (scanned)
+                continue;
+            const ErrorKind kind = scanned.error().kind;
+            if (kind == ErrorKind::PortLost || kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled)
+                return tl::unexpected(scanned.error());
+            m_summary.trouble << scanned.error().text; // another rate may do
+        }
+        return m_summary;
+    }
+
+private:
+    Result<void> scanRate()
+    {
+        Bus &bus = m_context.bus();
+        if (const auto set = bus.setBaudRate(m_bauds[m_step]); !set)
+            return set;
+        const auto found = scanBaud(bus, {m_range.firstId, m_range.lastId, m_range.sweep}, m_hooks);
+        if (!found)
+            return tl::unexpected(found.error());
+        if (!found->unreadable.isEmpty())
+            m_summary.trouble << found->unreadable;
+        return {};
+    }
+
+    /// At most once a percent: there may be hundreds of exchanges.
+    void tell(double part)
+    {
+        const double progress = (static_cast<double>(m_step) + part) / static_cast<double>(m_bauds.size());
+        const int percent = static_cast<int>(100 * progress);
+        if (percent == m_toldPercent)
+            return;
+        m_toldPercent = percent;
+        m_context.post([notes = m_notes, progress, baud = m_bauds[m_step]] { notes.goesOn(progress, baud); });
+    }
+
+    JobContext &m_context;
+    const ScanRange &m_range;
+    const ScanNotes &m_notes;
+    ScanHooks m_hooks;
+    ScanSummary m_summary;
+    std::vector<int> m_bauds;
+    std::size_t m_step = 0;
+    int m_toldPercent = -1;
+};
 
 } // namespace
 
@@ -85,7 +126,7 @@ void Scanner::start(LineSession &line, const ScanRange &range)
 {
     cancel();
     m_line = &line;
-    m_found = 0;
+    m_seen.clear();
     m_wasCancelled = false;
     m_progress = 0;
     m_currentBaud = range.bauds.empty() ? line.baudRate() : range.bauds.front();
@@ -95,11 +136,11 @@ void Scanner::start(LineSession &line, const ScanRange &range)
     notes.found = [this, run](const Found &found) {
         if (run != m_run || !m_line)
             return;
-        ++m_found;
+        m_seen.insert({found.baudRate, found.id}); // a doubtful one comes twice
         m_line->heard(found);
         emit progressChanged();
     };
-    notes.baudBegins = [this, run](double progress, int baud) {
+    notes.goesOn = [this, run](double progress, int baud) {
         if (run != m_run)
             return;
         m_progress = progress;
@@ -108,7 +149,9 @@ void Scanner::start(LineSession &line, const ScanRange &range)
     };
     m_job = line.bus().run<ScanSummary>(
         Priority::Scan, this,
-        [range, notes](JobContext &context) { return scan(context, range, notes); },
+        [range, notes, &catalog = line.catalog()](JobContext &context) {
+            return RatesScan(context, range, catalog, notes).run();
+        },
         [this, run](const Result<ScanSummary> &summary) {
             if (run != m_run)
                 return;
@@ -118,7 +161,7 @@ void Scanner::start(LineSession &line, const ScanRange &range)
                 && (summary.error().kind == ErrorKind::Cancelled || summary.error().kind == ErrorKind::Stopped);
             const QString message = summary ? summary->trouble.join(QStringLiteral(". ")) : summary.error().text;
             emit progressChanged();
-            emit finished(m_found, message);
+            emit finished(found(), message);
         });
     emit progressChanged();
 }

@@ -3,6 +3,8 @@
 
 #include "core/session/session.h"
 
+#include <set>
+
 namespace dynascope {
 
 struct ScanRange {
@@ -16,7 +18,9 @@ struct ScanRange {
 std::vector<int> likelyBauds(int lastUsed);
 const std::vector<int> &allBauds(); ///< every rate an X, MX or P device can have, ascending
 
-/// Looks for devices on one line; they appear in its LineSession as they answer. GUI thread.
+/// Looks for devices on one line; they appear in its LineSession as they answer. Commands that wait meanwhile run
+/// between two of its exchanges: of a sweep after one Ping, else after a broadcast Ping, which takes up to 0.8 s. GUI
+/// thread.
 class Scanner : public QObject
 {
     Q_OBJECT
@@ -30,7 +34,7 @@ public:
     bool wasCancelled() const { return m_wasCancelled; } ///< the last scan ended by cancel() or STOP
     double progress() const { return m_progress; } ///< 0..1
     int currentBaud() const { return m_currentBaud; }
-    int found() const { return m_found; }
+    int found() const { return static_cast<int>(m_seen.size()); } ///< devices, by ID and baud rate
 
 signals:
     void progressChanged(); ///< also at start
@@ -44,7 +48,7 @@ private:
     int m_run = 0; ///< notes of an earlier scan are dropped by this
     double m_progress = 0;
     int m_currentBaud = 0;
-    int m_found = 0;
+    std::set<std::pair<int, std::uint8_t>> m_seen; ///< baud rate and ID
 };
 
 } // namespace dynascope

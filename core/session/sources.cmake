@@ -8,6 +8,7 @@ target_sources(dynascope_core PRIVATE
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
+    session/neighbours.cpp session/neighbours.h
     session/placecommands.cpp
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
@@ -16,5 +17,6 @@ target_sources(dynascope_core PRIVATE
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h
+    session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h
 )

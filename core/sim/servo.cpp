@@ -15,6 +15,15 @@ constexpr std::int64_t WatchdogTripped = -1;
 constexpr std::int64_t TickPeriod = 32768;
 constexpr int TorqueOnAtStartup = 1, RamFromBackup = 2; ///< bits of Startup Configuration
 
+/// No two servos come up in the same moment; their Realtime Ticks differ.
+LineTime bootSpread(std::uint64_t seed)
+{
+    constexpr std::uint64_t Most = 40'000; // µs; chosen
+    std::uint64_t x = (seed ^ (seed >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return std::chrono::microseconds((x ^ (x >> 31)) % Most);
+}
+
 enum HardwareError { InputVoltage = 0x01, Overheating = 0x04, Overload = 0x20 };
 
 } // namespace
@@ -23,6 +32,7 @@ Servo::Servo(ControlTablePtr table, const MotorModel &motor, const Identity &ide
     : m_registers(std::move(table))
     , m_motion(m_registers, motor, seed)
     , m_baudRate(identity.baudRate)
+    , m_bootSpread(bootSpread(seed))
 {
     m_registers.set(Reg::FirmwareVersion, identity.firmware);
     m_registers.set(Reg::Id, identity.id);
@@ -32,7 +42,8 @@ Servo::Servo(ControlTablePtr table, const MotorModel &motor, const Identity &ide
 
 void Servo::beginAt(LineTime now)
 {
-    m_now = m_heardLast = m_instructedLast = m_deafUntil = m_bootedAt = now;
+    m_now = m_heardLast = m_instructedLast = m_deafUntil = now;
+    m_bootedAt = now + m_bootSpread;
     m_motion.beginAt(now);
 }
 
@@ -90,7 +101,7 @@ void Servo::boot(LineTime at)
 {
     m_restart = false;
     m_deafUntil = at + m_settings.bootTime;
-    m_bootedAt = m_deafUntil;
+    m_bootedAt = m_deafUntil + m_bootSpread;
     m_instructedLast = m_deafUntil;
     m_shutDown = false;
     m_registered.reset();

@@ -109,6 +109,7 @@ private:
     ServoSettings m_settings;
     Parser m_parser;
     int m_baudRate;
+    LineTime m_bootSpread; ///< its Realtime Tick begins so much later than it hears
     LineTime m_now{}, m_heardLast{}, m_instructedLast{}, m_deafUntil{}, m_bootedAt{};
     bool m_shutDown = false; ///< by Shutdown: no torque until it boots
     bool m_restart = false;  ///< boots as soon as the answer is made

@@ -38,6 +38,8 @@ QStringView nameOf(Known field); ///< as the manufacturer writes it
 class ControlTable
 {
 public:
+    static constexpr int DefaultReceiveBuffer = 1024; ///< bytes
+
     /// What a table is made of; see catalog.h for where it comes from.
     struct Description {
         std::uint16_t modelNumber = 0;
@@ -50,6 +52,7 @@ public:
         std::vector<BaudCode> baudCodes;
         int fastReadsFrom = -1;   ///< first firmware with Fast Sync/Bulk Read; −1: never
         int backupFrom = -1;      ///< first firmware with Control Table Backup; −1: never
+        int receiveBuffer = DefaultReceiveBuffer;
         QString manualPage;       ///< URL
         std::vector<Field> fields; ///< by address, no overlaps
     };
@@ -62,6 +65,7 @@ public:
     int resolution() const { return m_description.resolution; }
     std::span<const Field> fields() const { return m_description.fields; }
     int size() const { return m_size; } ///< one past the last address
+    int receiveBuffer() const { return m_description.receiveBuffer; } ///< bytes of the longest packet it takes
 
     /// By the manufacturer's name, ignoring case, spaces, '-' and '_'; −1 where there is none.
     int indexOf(QStringView name) const;

@@ -9,6 +9,7 @@ namespace dynascope {
 namespace {
 
 constexpr int MostRegisters = 2000;
+constexpr int LeastBuffer = 64, MostBuffer = 65535; ///< bytes; a Sync Write of one register must fit
 constexpr int MostTables = 16;    ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
 
@@ -45,6 +46,9 @@ void TableBuilder::readModel()
     m_newestFirmware = static_cast<int>(numberIn(m_settings, QStringLiteral("newestFirmware"), 0, NewestFirmware, {}));
     m_common.fastReadsFrom = readFirmware(QStringLiteral("fastReadsSince"));
     m_common.backupFrom = readFirmware(QStringLiteral("backupSince"));
+    if (m_settings.contains(u"receiveBuffer"))
+        m_common.receiveBuffer
+            = static_cast<int>(numberIn(m_settings, QStringLiteral("receiveBuffer"), LeastBuffer, MostBuffer, {}));
     m_common.manualPage = m_settings.value(u"manual").toString();
     if (!m_common.manualPage.startsWith(u"https://"))
         say(QStringLiteral("\"manual\" must be an https address"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/operations.h"
 #include "core/bus/poller.h"
+#include "core/bus/scan.h"
 #include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
@@ -35,7 +36,8 @@ private slots:
             QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:7,XL330-M288@57600:252,XL330-M288@1000000:3"));
         std::vector<int> shown;
         const LineTime begin = world.line->now();
-        const auto found = scanBaud(*world.bus, {0, 252}, [&](const Found &device) { shown.push_back(device.id); });
+        const auto found
+            = scanBaud(*world.bus, {0, 252}, {[&](const Found &device) { shown.push_back(device.id); }, {}, {}});
         QVERIFY(found);
         QCOMPARE(shown, (std::vector<int>{1, 7, 252}));
         QCOMPARE(found->devices[0].modelNumber, 1020);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "tests/support/busworld.h"
 #include "tests/support/testmain.h"
 

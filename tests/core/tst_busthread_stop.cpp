@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/messages.h"
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "core/bus/poller.h"
 #include "core/bus/stopsequence.h"
 #include "core/session/procedures/atbaud.h"

@@ -172,6 +172,8 @@ private slots:
         const ControlTablePtr small = builtIn().find(1200, 53);
         QVERIFY(!xm->hasFastReads(44) && xm->hasFastReads(45) && !xm->hasBackup(44) && xm->hasBackup(45));
         QVERIFY(!small->hasFastReads(45) && small->hasFastReads(46) && small->hasBackup(46));
+        for (const ControlTablePtr &table : {xm, xl, small})
+            QCOMPARE(table->receiveBuffer(), 1024);
         QCOMPARE(xm->description().operatingModes, (std::vector<int>{0, 1, 3, 4, 5, 16}));
         QCOMPARE(xl->description().operatingModes, (std::vector<int>{1, 3, 4, 16}));
         QCOMPARE(xm->baudRate(7), std::optional<int>(4500000));

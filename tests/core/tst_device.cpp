@@ -14,6 +14,7 @@ ControlTablePtr smallTable()
     description.modelNumber = 1020;
     description.model = QStringLiteral("XM430-W350");
     description.fastReadsFrom = 45;
+    description.receiveBuffer = 512;
     const auto field = [&description](int address, int size, const char *name, Area area, Access access) {
         Field added;
         added.address = static_cast<std::uint16_t>(address);
@@ -190,6 +191,7 @@ private slots:
         Device device(1, nullptr, smallTable(), Servo);
         QCOMPARE(device.traits().returnDelay, std::chrono::microseconds(508));
         QVERIFY(device.traits().fastReads);
+        QCOMPARE(device.traits().receiveBuffer, 512);
         device.take(bytesAt(9, {0}));
         QCOMPARE(device.traits().returnDelay, std::chrono::microseconds(8));
         Found older = Servo;

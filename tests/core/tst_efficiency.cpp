@@ -2,6 +2,7 @@
 #include "core/bus/cyclelimit.h"
 #include "core/bus/operations.h"
 #include "core/bus/poller.h"
+#include "core/bus/scan.h"
 #include "core/sim/servo.h"
 #include "core/sim/simulatedline.h"
 #include "tests/support/builtincatalog.h"
@@ -257,6 +258,29 @@ private slots:
             static_cast<double>((world.line.now() - begin).count()) / static_cast<double>(limit.count());
         qInfo("%.4f of what the slots ask for", part);
         QVERIFY2(part <= 1.02, qPrintable(QString::number(part)));
+    }
+
+    void comparingTakesTwoReadsOfEach_data() { aScanTakesItsSlots_data(); }
+
+    /// What comes behind the scan, to tell two alike devices under one ID.
+    void comparingTakesTwoReadsOfEach()
+    {
+        QFETCH(int, baudRate);
+        QFETCH(int, servos);
+        World world(m_catalog, Kind::Sync, servos, baudRate);
+        const auto scanned = [&](const ScanHooks &hooks) {
+            const LineTime begin = world.line.now();
+            return scanBaud(world.bus, {0, MaximumId}, hooks) ? world.line.now() - begin : LineTime();
+        };
+        const LineTime without = scanned({});
+        ScanHooks comparing;
+        comparing.volatileOf = [](const Found &) { return VolatileSpan{120, 27, 0, {}}; };
+        const LineTime with = scanned(comparing);
+        const LineTime limit
+            = servos * 2 * ((14 + 11 + 27) * world.line.byteTime() + Processing); // the data may have to be stuffed
+        const LineTime more = with - without;
+        QVERIFY2(more <= limit + limit / 50 + 1us, qPrintable(QString::number(more.count())));
+        QVERIFY(more >= limit - limit / 50);
     }
 };
 

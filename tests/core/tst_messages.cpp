@@ -48,6 +48,11 @@ private slots:
             QStringLiteral("/dev/ttyUSB0 is in use by another program: close that first (DYNAMIXEL Wizard, a robot's "
                            "controller, a "
                            "terminal, or this program started twice)"));
+        row("holder", {ErrorKind::PortBusy, messages::portHolder(QStringLiteral("screen"), QStringLiteral("7"))},
+            QStringLiteral("screen (process 7)"));
+        row("nameless holder", {ErrorKind::PortBusy, messages::portHolder({}, QStringLiteral("7"))},
+            QStringLiteral("a program (process 7)"));
+        row("held by itself", {ErrorKind::PortBusy, messages::thisProgram()}, QStringLiteral("this program"));
         row("not serial", messages::portNotSerial(port), QStringLiteral("/dev/ttyUSB0 is not a serial port"));
         row("lost", messages::portLost(port),
             QStringLiteral("/dev/ttyUSB0 is gone: unplugged, or closed by the other side"));
@@ -122,6 +127,10 @@ private slots:
         doubt("shared, two models", messages::Shared::TwoModels, QStringLiteral("it answered as two different models"));
         doubt("shared, more", messages::Shared::MoreThanOne, QStringLiteral("more came than one answer"));
         doubt("shared, collide", messages::Shared::Collide, QStringLiteral("their answers collide"));
+        doubt("shared, reads damaged", messages::Shared::ReadsDamaged,
+              QStringLiteral("it answers a Ping well, but what is read of it comes damaged"));
+        doubt("shared, reads differ", messages::Shared::ReadsDiffer,
+              QStringLiteral("what is read of it jumps as no single device's registers do"));
         doubt("shared, both", messages::Shared::BothAnswered, QStringLiteral("both answered the scan"));
         row("only the scan", {ErrorKind::NoHeader, messages::onlyTheScan()},
             QStringLiteral("it answered the scan, but no Ping of its own"));
@@ -171,7 +180,10 @@ private slots:
             messages::withOthers(messages::asleep(1), {2}), messages::withOthers(messages::asleep(1), {2, 3}),
             {ErrorKind::NoHeader, messages::unreadable(2)},
             {ErrorKind::NoHeader, messages::sharedId(1, messages::Shared::Collide)},
-            {ErrorKind::NoHeader, messages::onlyTheScan()}, {ErrorKind::Stopped, messages::torqueStillOn(1)}};
+            {ErrorKind::PortBusy, messages::portHolder(port, port)},
+            {ErrorKind::PortBusy, messages::portHolder({}, port)},
+            {ErrorKind::PortBusy, messages::thisProgram()}, {ErrorKind::NoHeader, messages::onlyTheScan()},
+            {ErrorKind::Stopped, messages::torqueStillOn(1)}};
         QCoreApplication::removeTranslator(&brackets);
         for (const Error &error : all)
             QVERIFY2(error.text.startsWith(u'<') && error.text.endsWith(u'>'), qPrintable(error.text));

@@ -60,6 +60,14 @@ public:
         , m_line(seed, pick({57'600, 1'000'000, 4'000'000}), LineTime(pick({0, 2, 16}) * 1ms), chance(4))
         , m_bus(m_line)
     {
+        if (chance(2)) {
+            m_mute = static_cast<std::uint8_t>(1 + upTo(HostileLine::Servos));
+            m_line.setMute(m_mute);
+            Traits traits;
+            traits.id = m_mute;
+            traits.statusReturnLevel = 1;
+            m_bus.setTraits({traits});
+        }
         m_manners = {0.06, 0.06, 0.06, 0.06, 0.08, kind, pick({0, 1}) ? LineTime(1s) : LineTime(40ms)};
     }
 
@@ -105,7 +113,9 @@ private:
         const int lastId = HostileLine::Servos + (alive || !chance(6) ? 0 : 1);
         const auto id = static_cast<std::uint8_t>(1 + upTo(lastId));
         spans = {span(id)};
-        switch (upTo(8)) {
+        switch (upTo(10)) {
+        case 8: return regWriteRequest({id, spans.front().address, {1, 2}});
+        case 9: return actionRequest(id);
         case 0: spans = {{id, 0, 3}}; return pingRequest(id);
         case 1: return writeRequest({id, spans.front().address, {1, 2}});
         case 2:
@@ -159,7 +169,7 @@ private:
     {
         const auto devices = static_cast<LineTime::rep>(request.replies.size());
         const LineTime bytes = static_cast<LineTime::rep>(4 * (request.maximumReplySize() + 100)) * m_line.byteTime();
-        const LineTime processing = request.packet.instruction == Instruction::Write ? 50ms : 1ms;
+        const LineTime processing = request.isWrite() ? 50ms : 1ms;
         return (retries + 1) * (2 * 51ms + bytes + (devices + 1) * (3 * 16ms + 100ms + processing + 10ms));
     }
 
@@ -173,9 +183,13 @@ private:
         }
         ++m_tally.values;
         bool good = false;
+        // By its Status Return Level: nothing is claimed.
+        const bool saysNothing = span.id == m_mute && reply->bytes == 0;
         switch (request.packet.instruction) {
         case Instruction::Ping: good = reply->data == Bytes{6, 4, span.id} && span.id <= HostileLine::Servos; break;
-        case Instruction::Write: good = m_line.wasWritten(span.id, span.address); break;
+        case Instruction::Write:
+        case Instruction::RegWrite: good = saysNothing || m_line.wasWritten(span.id, span.address); break;
+        case Instruction::Action: good = saysNothing || m_line.wasActedOn(span.id); break;
         default:
             good = reply->data.size() == span.length
                 && HostileLine::held(reply->data, begin, m_line.now(), span.id, span.address);
@@ -199,6 +213,7 @@ private:
     HostileLine m_line;
     Bus m_bus;
     HostileLine::Manners m_manners;
+    std::uint8_t m_mute = 0; ///< 0: nobody
     Tally m_tally;
 };
 

@@ -1,160 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/operations.h"
-#include "core/bus/readplan.h"
 #include "tests/support/exchangetext.h"
 #include "tests/support/fakeservos.h"
-#include "tests/support/hex.h"
 #include "tests/support/oracle.h"
 #include "tests/support/testmain.h"
 
 using namespace dynascope;
 using namespace std::chrono_literals;
 
-namespace {
-
-/// "Fast Sync Read 1 2 3 @132+4", one line a request.
-QString toText(const Request &request)
-{
-    QStringList parts{instructionName(request.packet.instruction)};
-    for (const ExpectedReply &reply : request.replies)
-        parts << QString::number(reply.id);
-    return parts.join(QLatin1Char(' '));
-}
-
-QStringList toText(const std::vector<PlannedExchange> &plan)
-{
-    QStringList lines;
-    for (const PlannedExchange &planned : plan)
-        lines << toText(planned.request);
-    return lines;
-}
-
-Traits traits(std::uint8_t id, bool fast, std::uint8_t level = 2)
-{
-    Traits result;
-    result.id = id;
-    result.fastReads = fast;
-    result.statusReturnLevel = level;
-    return result;
-}
-
-} // namespace
-
 class TestOperations : public QObject
 {
     Q_OBJECT
 
 private slots:
-    void plansTheCheapestReads_data()
-    {
-        QTest::addColumn<QList<QPair<int, int>>>("spans"); // ID, address
-        QTest::addColumn<QString>("fast");                 // IDs that can
-        QTest::addColumn<QStringList>("plan");
-        using Spans = QList<QPair<int, int>>;
-        const auto row = [](const char *name, const Spans &spans, const char *fast, const QStringList &plan) {
-            QTest::newRow(name) << spans << QString::fromLatin1(fast) << plan;
-        };
-        row("nothing", {}, "", {});
-        row("one", {{1, 132}}, "1", {QStringLiteral("Read 1")});
-        row("three alike, all fast", {{1, 132}, {2, 132}, {3, 132}}, "1 2 3", {QStringLiteral("Fast Sync Read 1 2 3")});
-        row("three alike, none fast", {{1, 132}, {2, 132}, {3, 132}}, "", {QStringLiteral("Sync Read 1 2 3")});
-        row("three alike, one fast", {{1, 132}, {2, 132}, {3, 132}}, "2", {QStringLiteral("Sync Read 1 2 3")});
-        row("four alike, two fast", {{1, 132}, {2, 132}, {3, 132}, {4, 132}}, "2 4",
-            {QStringLiteral("Fast Sync Read 2 4"), QStringLiteral("Sync Read 1 3")});
-        row("two fast, one not", {{1, 132}, {2, 132}, {3, 132}}, "1 3",
-            {QStringLiteral("Fast Sync Read 1 3"), QStringLiteral("Read 2")});
-        row("different addresses", {{1, 132}, {2, 126}}, "1 2", {QStringLiteral("Fast Bulk Read 1 2")});
-        row("different addresses, plain", {{1, 132}, {2, 126}}, "", {QStringLiteral("Bulk Read 1 2")});
-        row("one device twice", {{1, 132}, {1, 64}}, "1", {QStringLiteral("Read 1"), QStringLiteral("Read 1")});
-        row("sync and a rest", {{1, 132}, {2, 132}, {1, 64}, {3, 70}}, "",
-            {QStringLiteral("Sync Read 1 2"), QStringLiteral("Bulk Read 1 3")});
-        row("order is kept", {{9, 132}, {2, 132}, {5, 132}}, "", {QStringLiteral("Sync Read 9 2 5")});
-    }
-
-    void plansTheCheapestReads()
-    {
-        using Spans = QList<QPair<int, int>>;
-        QFETCH(Spans, spans);
-        QFETCH(QString, fast);
-        QFETCH(QStringList, plan);
-        std::vector<Span> wanted;
-        std::vector<Traits> devices;
-        const QStringList able = fast.split(QLatin1Char(' '));
-        for (const auto &[id, address] : spans) {
-            wanted.push_back({static_cast<std::uint8_t>(id), static_cast<std::uint16_t>(address), 4});
-            devices.push_back(traits(static_cast<std::uint8_t>(id), able.contains(QString::number(id))));
-        }
-        const auto planned = planReads(wanted, devices);
-        QCOMPARE(toText(planned), plan);
-        std::vector<int> seen(wanted.size(), 0);
-        for (const PlannedExchange &exchange : planned) {
-            QCOMPARE(exchange.indices.size(), exchange.request.replies.size());
-            for (std::size_t i = 0; i < exchange.indices.size(); ++i) {
-                ++seen[exchange.indices[i]];
-                QCOMPARE(exchange.request.replies[i].id, wanted[exchange.indices[i]].id);
-            }
-        }
-        QCOMPARE(seen, std::vector<int>(wanted.size(), 1));
-    }
-
-    void aMuteDeviceBreaksNoChain()
-    {
-        const std::vector<Span> spans{{1, 132, 4}, {2, 132, 4}, {3, 132, 4}};
-        const std::vector<Traits> devices{traits(1, true), traits(2, true, 0), traits(3, true)};
-        QCOMPARE(toText(planReads(spans, devices)),
-            (QStringList{QStringLiteral("Read 2"), QStringLiteral("Fast Sync Read 1 3")}));
-    }
-
-    void splitsWhatDoesNotFit()
-    {
-        std::vector<Span> spans;
-        std::vector<Traits> devices;
-        for (int id = 0; id < 253; ++id) {
-            spans.push_back({static_cast<std::uint8_t>(id), static_cast<std::uint16_t>(id % 2 ? 132 : 120), 40});
-            devices.push_back(traits(static_cast<std::uint8_t>(id), id < 120));
-        }
-        std::size_t covered = 0;
-        for (const bool same : {true, false}) {
-            for (Span &span : spans)
-                span.address = same ? 132 : static_cast<std::uint16_t>(span.id);
-            covered = 0;
-            for (const PlannedExchange &planned : planReads(spans, devices)) {
-                QVERIFY(encode(planned.request.packet).size() <= MaximumPacketSize);
-                if (planned.request.shape == ReplyShape::Fast)
-                    QVERIFY(planned.request.maximumReplySize() <= MaximumPacketSize);
-                covered += planned.indices.size();
-            }
-            QCOMPARE(covered, spans.size());
-        }
-        std::vector<SpanData> writes;
-        for (int id = 0; id < 253; ++id)
-            writes.push_back({static_cast<std::uint8_t>(id), 116, hex::bytes("FF FF FD FF FF FD")});
-        covered = 0;
-        for (const Request &request : planWrites(writes, devices)) {
-            QVERIFY(encode(request.packet).size() <= MaximumPacketSize);
-            covered += std::get<GroupWriteCommand>(*decodeCommand(request.packet)).writes.size();
-        }
-        QCOMPARE(covered, writes.size());
-    }
-
-    void plansWrites()
-    {
-        const auto text = [](const std::vector<SpanData> &writes) {
-            QStringList lines;
-            for (const Request &request : planWrites(writes, {}))
-                lines << toText(request)
-                        + QStringLiteral(" %1").arg(
-                            std::get<GroupWriteCommand>(*decodeCommand(request.packet)).writes.size());
-            return lines;
-        };
-        QCOMPARE(text({}), QStringList());
-        QCOMPARE(text({{1, 64, {0}}}), QStringList(QStringLiteral("Sync Write 1")));
-        QCOMPARE(text({{1, 64, {0}}, {2, 64, {0}}}), QStringList(QStringLiteral("Sync Write 2")));
-        QCOMPARE(text({{1, 64, {0}}, {2, 65, {0}}}), QStringList(QStringLiteral("Bulk Write 2")));
-        QCOMPARE(text({{1, 64, {0}}, {1, 65, {0}}, {2, 65, {0}}}),
-            (QStringList{QStringLiteral("Sync Write 2"), QStringLiteral("Bulk Write 1")}));
-    }
-
     void pingsReadsWrites()
     {
         FakeLine line;
@@ -291,144 +149,6 @@ private slots:
         }), silence + QStringLiteral("; the register reads back 01 instead of 05"));
     }
 
-    void scans()
-    {
-        FakeLine line;
-        FakeServos devices(line);
-        for (const int id : {0, 1, 7, 200})
-            devices.servos[id];
-        devices.servos[9].baudRate = 57600;
-        Bus bus(line);
-        std::vector<int> shown;
-        const auto found = scanBaud(bus, {1, 252}, [&](const Found &device) { shown.push_back(device.id); });
-        QVERIFY(found);
-        QCOMPARE(shown, (std::vector<int>{1, 7, 200}));
-        QCOMPARE(found->devices.size(), std::size_t(3));
-        QCOMPARE(found->devices[1], (Found{7, 1'000'000, 1025, 45, false, {}}));
-        QVERIFY(line.now() < 900ms);
-    }
-
-    void scanTakesNoErrorForADevice()
-    {
-        FakeLine line;
-        line.answer(oracle::status(9, 0xFF, {6, 4, 38}));
-        Bus bus(line);
-        QCOMPARE(scanBaud(bus, {0, 252}, {}).value().devices.size(), std::size_t(0));
-    }
-
-    void scanDoubtsWhoSharesAnId()
-    {
-        // Two voices under ID 1: the second comes behind the first, in the scan and when asked alone.
-        FakeLine line;
-        line.handler = [](const Bytes &) -> FakeLine::Answer {
-            return {{500us, oracle::status(1, 0, {6, 4, 38})}, {600us, oracle::status(1, 0, {6, 4, 38})}};
-        };
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 252}, {});
-        QCOMPARE(found->devices.size(), std::size_t(1));
-        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
-    }
-
-    void scanFindsWhoCanNotBeRead()
-    {
-        // Their bits collide: nothing but damaged packets.
-        FakeLine line;
-        line.handler = [](const Bytes &request) -> FakeLine::Answer {
-            if (request[4] != 1 && request[4] != 254)
-                return {};
-            Bytes packet = oracle::status(1, 0, {6, 4, 38});
-            packet[10] ^= 0x11;
-            return {{500us, packet}};
-        };
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 252}, {});
-        QCOMPARE(found->devices.size(), std::size_t(1));
-        QCOMPARE(found->devices.front().id, std::uint8_t(1));
-        QVERIFY2(found->devices.front().doubt.contains(QStringLiteral("share ID 1")), qPrintable(found->devices.front().doubt));
-    }
-
-    void scanSaysThatSomebodyIsThere()
-    {
-        FakeLine line;
-        line.answer({0x12, 0xFE, 0x40, 0x81, 0x22, 0x97}); // nobody's packet, and nobody answers a Ping of its own
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 252}, {});
-        QVERIFY(found && found->devices.empty());
-        QVERIFY2(found->unreadable.contains(QStringLiteral("6 bytes came")), qPrintable(found->unreadable));
-    }
-
-    void noiseIsNobody_data()
-    {
-        QTest::addColumn<bool>("sweep");
-        QTest::newRow("broadcast") << false;
-        QTest::newRow("sweep") << true;
-    }
-
-    void noiseIsNobody()
-    {
-        QFETCH(bool, sweep);
-        FakeLine line;
-        for (int i = 0; i < 4000; ++i)
-            line.babble(i * 500us, {static_cast<std::uint8_t>(i * 7)});
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 40, sweep}, {});
-        QVERIFY(found && found->devices.empty());
-        QVERIFY(!found->unreadable.isEmpty());
-    }
-
-    // A Read of three bytes is still unanswered: an answer to the broadcast Ping might be its own.
-    void aScanLosesNobodyOverALateAnswer()
-    {
-        FakeLine line;
-        line.silence();
-        Bus bus(line);
-        QVERIFY(!read(bus, {1, 144, 3}));
-        line.handler = [](const Bytes &request) -> FakeLine::Answer {
-            if (request[7] == 2)
-                return {{500us, oracle::status(1, 0, Bytes(request[10], 7))}};
-            return {{500us, oracle::status(1, 0, {6, 4, 38})}};
-        };
-        const auto found = scanBaud(bus, {0, 252}, {});
-        QVERIFY(found);
-        QCOMPARE(found->devices.size(), std::size_t(1));
-        QCOMPARE(found->devices.front().modelNumber, std::uint16_t(1030));
-    }
-
-    void anEchoIsNobody_data()
-    {
-        QTest::addColumn<bool>("sweep");
-        QTest::newRow("broadcast") << false;
-        QTest::newRow("sweep") << true;
-    }
-
-    void anEchoIsNobody()
-    {
-        QFETCH(bool, sweep);
-        FakeLine line;
-        line.echo = true;
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 252, sweep}, {});
-        QVERIFY(found && found->devices.empty());
-        QCOMPARE(found->unreadable, QString());
-    }
-
-    void sweepsWhereABroadcastFails()
-    {
-        FakeLine line;
-        line.handler = [](const Bytes &request) -> FakeLine::Answer {
-            if (request[4] != 1 && request[4] != 7)
-                return {};
-            return {{500us, oracle::status(request[4], 0, {6, 4, 38})}};
-        };
-        Bus bus(line);
-        std::vector<int> shown;
-        const auto found = scanBaud(bus, {0, 20, true}, [&](const Found &device) { shown.push_back(device.id); });
-        QVERIFY(found);
-        QCOMPARE(shown, (std::vector<int>{1, 7}));
-        QCOMPARE(line.sent.size(), std::size_t(21));
-        QVERIFY(line.now() < 60ms);
-    }
-
     void aSilentOneIsToldWithThoseAlive()
     {
         FakeLine line;
@@ -445,14 +165,6 @@ private slots:
         QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("; devices 1, 3 on this line answer")));
         QVERIFY(bus.wait(1min));
         QVERIFY(ping(bus, 9).error().text.endsWith(QStringLiteral("nothing else on the line has answered lately")));
-    }
-
-    void scanOfNobody()
-    {
-        FakeLine line;
-        Bus bus(line);
-        const auto found = scanBaud(bus, {0, 252}, {});
-        QVERIFY(found && found->devices.empty() && found->unreadable.isEmpty());
     }
 };
 

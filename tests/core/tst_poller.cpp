@@ -168,6 +168,37 @@ private slots:
         QCOMPARE(world.sentOf(Instruction::FastSyncRead), fast); // learned
     }
 
+    /// What was learned of a device holds for the firmware that it had.
+    void triesFastReadsAgainWithOtherFirmware()
+    {
+        World world;
+        const auto plan = [&](int firmware) {
+            std::vector<Traits> devices{traits(1, true), traits(2, true), traits(3, true)};
+            for (Traits &device : devices)
+                device.firmware = firmware;
+            world.poller.setPlan({{span(1), span(2), span(3)}, devices});
+        };
+        const auto fastReads = [&] {
+            const int before = world.sentOf(Instruction::FastSyncRead);
+            for (int i = 0; i < 6; ++i) {
+                if (toText(world.poller.runCycle()) != QStringLiteral("101=1 102=2 103=3"))
+                    return -1;
+            }
+            return world.sentOf(Instruction::FastSyncRead) - before;
+        };
+        for (const int id : {1, 2, 3})
+            world.servos.servos[id].knowsFast = false;
+        plan(44);
+        QVERIFY(fastReads() > 0); // until it is learned
+        QCOMPARE(fastReads(), 0);
+        for (const int id : {1, 2, 3})
+            world.servos.servos[id].knowsFast = true;
+        plan(44); // the same once more: still learned
+        QCOMPARE(fastReads(), 0);
+        plan(45);
+        QCOMPARE(fastReads(), 6);
+    }
+
     void tellsStop()
     {
         FakeLine line;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/procedures/procedures.h"
 #include "tests/support/builtincatalog.h"
+#include "tests/support/fakeservos.h"
+#include "tests/support/oracle.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -53,6 +55,70 @@ private slots:
                 QVERIFY(entry.bytes[7] != 0x03);
         }
         QVERIFY(ping(*wire.bus, 1));
+    }
+
+    /// Nobody answered a Ping there at another rate; what is under way of that is nobody's answer at this one.
+    void aPingMissedBeforeTakesNoPlace()
+    {
+        VirtualBus wire(m_catalog, QStringLiteral("XM430-W350@57600:1"));
+        QVERIFY(wire.bus->setBaudRate(1000000));
+        QVERIFY(!ping(*wire.bus, 7));
+        QVERIFY(wire.bus->setBaudRate(57600));
+        DirectContext context(*wire.bus);
+        const auto found = changeId(context, {place(1), 7, IdRegister, false});
+        QVERIFY2(found, found ? "" : qPrintable(found.error().text));
+        QCOMPARE(found->id, 7);
+    }
+
+    void whatIsHeardAtTheNewPlace_data()
+    {
+        QTest::addColumn<Bytes>("heard");
+        QTest::addColumn<int>("times"); // of the Pings there; then silence
+        QTest::addColumn<QString>("refusal");
+        const Bytes stray = oracle::status(9, 0, {0xFC, 3, 45});
+        Bytes damaged = oracle::status(7, 0, {0xFC, 3, 45});
+        damaged[9] ^= 1;
+        const QString taken
+            = QStringLiteral("ID 7 at 57600 bps is taken: something answers there; nothing was written");
+        const QString another = QStringLiteral("device 7 did not answer, but device 9 did");
+        QTest::newRow("nothing") << Bytes() << 0 << QString();
+        QTest::newRow("somebody") << oracle::status(7, 0, {0xFC, 3, 45}) << 99 << taken;
+        QTest::newRow("damaged") << damaged << 99 << taken;
+        QTest::newRow("noise") << Bytes{1, 2, 3, 4} << 99 << taken;
+        QTest::newRow("another one, once") << stray << 3 << QString(); // with its repetitions
+        QTest::newRow("another one, always") << stray << 99 << another;
+    }
+
+    /// Taken is what an answer, damage or noise says; another's answer doesn't.
+    void whatIsHeardAtTheNewPlace()
+    {
+        QFETCH(Bytes, heard);
+        QFETCH(int, times);
+        QFETCH(QString, refusal);
+        FakeLine line(57600);
+        FakeServos devices(line);
+        devices.servos[1].baudRate = 57600;
+        int writes = 0;
+        bool hasMoved = false;
+        line.handler = [&](const Bytes &request) -> FakeLine::Answer {
+            if (request[7] == 3) {
+                ++writes;
+                hasMoved = true;
+                return {{FakeLine::DefaultDelay, oracle::status(1, 0, {})}};
+            }
+            if (request[4] == 7 && !hasMoved)
+                return times-- > 0 ? FakeLine::Answer{{FakeLine::DefaultDelay, heard}} : FakeLine::Answer{};
+            if (hasMoved)
+                return {{FakeLine::DefaultDelay, oracle::status(request[4], 0, {0xFC, 3, 45})}};
+            return devices.answer(request);
+        };
+        Bus bus(line);
+        DirectContext context(bus);
+        const auto found = changeId(context, {place(1), 7, IdRegister, false});
+        const QString text = found ? QString() : found.error().text;
+        QVERIFY2(refusal.isEmpty() ? text.isEmpty() : text.startsWith(refusal), qPrintable(text));
+        QVERIFY(found || text.endsWith(QStringLiteral("nothing was written")));
+        QCOMPARE(writes, refusal.isEmpty() ? 1 : 0);
     }
 
     void aTorqueHeldEeprom_data()

@@ -228,7 +228,7 @@ private slots:
 
     void realtimeTickWraps()
     {
-        wait(32700ms);
+        wait(32740ms);
         QVERIFY(value(u"Realtime Tick") >= 32700);
         wait(100ms);
         QVERIFY(value(u"Realtime Tick") < 100);

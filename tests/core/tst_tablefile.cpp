@@ -64,6 +64,21 @@ private slots:
         QVERIFY(!after->hasFastReads(2) && after->hasFastReads(3) && !after->hasBackup(255));
     }
 
+    void theReceiveBuffer()
+    {
+        const auto bufferOf = [](const QString &json) {
+            Catalog catalog;
+            const Result<void> added = catalog.add(json.toUtf8(), QStringLiteral("t.json"));
+            return added ? catalog.find(7, 3)->receiveBuffer() : -1;
+        };
+        QCOMPARE(bufferOf(sound()), 1024); // not stated
+        QString stated = sound();
+        stated.replace(QStringLiteral("\"format\": 1"), QStringLiteral("\"format\": 1, \"receiveBuffer\": 512"));
+        QCOMPARE(bufferOf(stated), 512);
+        stated.replace(QStringLiteral("\"number\": 7"), QStringLiteral("\"number\": 7, \"receiveBuffer\": 256"));
+        QCOMPARE(bufferOf(stated), 256); // the model's own
+    }
+
     void damaged_data()
     {
         QTest::addColumn<QString>("from");
@@ -90,6 +105,11 @@ private slots:
             "T-1: \"newestFirmware\" must be a whole number from 0 to 255");
         row("\"fastReadsSince\": 3", "\"fastReadsSince\": \"3\"",
             "T-1: \"fastReadsSince\" must be a whole number from 0 to 255");
+        for (const char *bytes : {"63", "65536", "\"256\"", "256.5"}) {
+            const QByteArray with = QByteArray("\"number\": 7, \"receiveBuffer\": ") + bytes;
+            QTest::addRow("buffer %s", bytes) << QStringLiteral("\"number\": 7") << QString::fromUtf8(with)
+                << QStringLiteral("t.json: T-1: \"receiveBuffer\" must be a whole number from 64 to 65535");
+        }
         row("\"1\": 57600", "\"one\": 57600",
             "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");
         row("\"1\": 57600", "\"1\": 0", "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");

@@ -2,6 +2,7 @@
 // Operations of every kind against a line whose answers the input dictates: each ends within a bounded time, and no
 // value is returned as good unless a complete answer with it (CRC, ID, length, no error) came while the operation ran.
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 #include "tests/fuzz/dictatedline.h"
 #include "tests/support/oracle.h"
 

@@ -41,6 +41,7 @@ private slots:
     void scan();
     void scanInJson();
     void scanOfNobody();
+    void scanOfASharedId_data();
     void scanOfASharedId();
     void read_data();
     void read();
@@ -143,9 +144,17 @@ void TestDxl::scanOfNobody()
     QVERIFY2(here.err.contains(u"scan --bauds all"), qPrintable(here.err));
 }
 
+void TestDxl::scanOfASharedId_data()
+{
+    QTest::addColumn<QString>("servos");
+    QTest::newRow("two models") << u"XM430-W350@57600:4,XL430-W250@57600:4"_s;
+    QTest::newRow("two alike") << u"XM430-W350@57600:4,XM430-W350@57600:4"_s;
+}
+
 void TestDxl::scanOfASharedId()
 {
-    m_sim = std::make_unique<SimProcess>(u"XM430-W350@57600:4,XL430-W250@57600:4"_s);
+    QFETCH(QString, servos);
+    m_sim = std::make_unique<SimProcess>(servos);
     const Outcome outcome = dxl({u"--json"_s, u"scan"_s, u"--ids"_s, u"0-5"_s});
     QCOMPARE(outcome.code, 0);
     const QJsonArray devices = json(outcome).array();

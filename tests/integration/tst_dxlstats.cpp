@@ -147,6 +147,7 @@ private slots:
         const Outcome outcome = stats({u"--seconds"_s, u"0.5"_s, u"--json"_s, u"--ids"_s, u"9,1-2"_s});
         QCOMPARE(outcome.code, 1);
         QVERIFY2(outcome.err.startsWith(u"dxl: ID 9 never answered"), qPrintable(outcome.err));
+        QVERIFY2(outcome.err.contains(u"; devices 1, 2 on this line answer"), qPrintable(outcome.err));
         const QJsonObject report = object(outcome);
         QCOMPARE(report[u"devices"].toArray().size(), 3); // 3 was not asked for
         QCOMPARE(device(report, 9)[u"good"].toInt(), 0);

@@ -113,8 +113,12 @@ void HostileLine::answer(const Bytes &request)
             data = {6, 4, static_cast<std::uint8_t>(each)};
         else if (code == 2)
             data = valueAt(begin, each, word(parameters, 0), word(parameters, 2));
-        else if (code == 3)
+        else if (code == 3 || code == 4)
             m_writes.emplace_back(each, word(parameters, 0));
+        else if (code == 5)
+            m_writes.emplace_back(each, ActionMark);
+        if (each == m_mute && code > 2)
+            continue;
         reply(oracle::status(static_cast<std::uint8_t>(each), 0, data), begin);
     }
 }

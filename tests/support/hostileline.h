@@ -46,12 +46,15 @@ public:
     static Bytes valueAt(LineTime time, int id, int address, int length);
     /// Did it hold `value` at some instant between?
     static bool held(const Bytes &value, LineTime from, LineTime to, int id, int address);
-    /// Was this written to device `id` since forgetDelivered()?
+    /// Was this written to device `id`, or registered, since forgetDelivered()?
     bool wasWritten(int id, int address) const;
+    bool wasActedOn(int id) const { return wasWritten(id, ActionMark); } ///< did it hear an Action?
+    void setMute(int id) { m_mute = id; } ///< Status Return Level 1: answers Ping and reads alone
 
     static constexpr int Servos = 4; ///< IDs 1..4 are there, others not
 
 private:
+    static constexpr int ActionMark = -1; ///< in place of an address
     struct Arrival {
         LineTime at{};
         std::uint8_t byte = 0;
@@ -69,6 +72,7 @@ private:
     std::uniform_real_distribution<double> m_unit{0, 1};
     int m_baudRate;
     LineTime m_allowance;
+    int m_mute = 0;
     bool m_echo;
     Manners m_manners;
     LineTime m_now{}, m_sentBy{}, m_wireFree{}, m_adapterFree{};

@@ -176,6 +176,24 @@ private slots:
         QVERIFY(index.data(DeviceTreeModel::SubtitleRole).toString().startsWith(QStringLiteral("Overheating")));
     }
 
+    void aSilentOneIsToldWithThoseThatAnswer()
+    {
+        m_line->heard(found(1, 1000000));
+        Device *device = m_line->deviceAt(1, 1000000);
+        device->setState(Device::State::Silent);
+        const auto help = [&] { return m_model->indexOf(device).data(Qt::ToolTipRole).toString(); };
+        const QString question = QStringLiteral(". Is it powered, and still at this ID and baud rate?");
+        QVERIFY2(help().contains(QStringLiteral("; nothing else on the line has answered lately") + question),
+                 qPrintable(help()));
+        m_line->heard(found(3, 1000000));
+        m_line->heard(found(4, 57600)); // parked: not asked
+        QVERIFY2(help().contains(QStringLiteral("; device 3 on this line answers") + question), qPrintable(help()));
+        m_line->heard(found(7, 1000000));
+        QVERIFY2(help().contains(QStringLiteral("; devices 3, 7 on this line answer") + question), qPrintable(help()));
+        m_line->deviceAt(3, 1000000)->setState(Device::State::Silent);
+        QVERIFY2(help().contains(QStringLiteral("; device 7 on this line answers") + question), qPrintable(help()));
+    }
+
     void aSilentOneIsDimmed()
     {
         m_line->heard(found(1, 1000000));

@@ -2,6 +2,7 @@
 #include "ui/common/texts.h"
 
 #include "core/bus/networkaddress_values.h"
+#include "core/session/neighbours.h"
 #include "core/table/units.h"
 
 #include <QCoreApplication>
@@ -109,8 +110,9 @@ QString deviceStateHelp(const Device &device)
         return Texts::tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
             .arg(baudText(device.baudRate()), agoText(device.lastHeard()));
     case Device::State::Silent:
-        return Texts::tr("It does not answer; last heard %1. Is it powered, and still at this ID and baud rate?")
-            .arg(agoText(device.lastHeard()));
+        return Texts::tr("%1. Is it powered, and still at this ID and baud rate?")
+            .arg(withNeighbours(
+                device, Texts::tr("It does not answer; last heard %1").arg(agoText(device.lastHeard()))));
     case Device::State::Present:
     case Device::State::Rebooting: break;
     }

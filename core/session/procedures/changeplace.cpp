@@ -50,9 +50,30 @@ bool endsAll(const Error &error)
     return error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::PortLost;
 }
 
-/// Tried, not believed: a device at a rate that the port can't do would be lost to it. Noise counts as somebody.
-Result<void> checkFree(JobContext &context, const DevicePlace &place)
+/// Says that nobody was heard there, but not that nobody is: another one's answer, or what may be an earlier one's.
+bool isInconclusive(const Error &error)
 {
+    return error.kind == ErrorKind::NotSent || error.kind == ErrorKind::LateAnswer || error.kind == ErrorKind::WrongId;
+}
+
+/// Bytes that only somebody at that place, or a second voice there, can have sent. Noise counts as somebody.
+bool isSomebody(const Error &error)
+{
+    switch (error.kind) {
+    case ErrorKind::NoHeader:
+    case ErrorKind::CutOff:
+    case ErrorKind::DamagedCrc:
+    case ErrorKind::WrongLength:
+    case ErrorKind::Refused: return true;
+    default: return false;
+    }
+}
+
+/// Tried, not believed: a device at a rate that the port can't do would be lost to it. `known` is a device that
+/// answers: that it does proves that nothing older is under way which could be mistaken for somebody at `place`.
+Result<void> checkFree(JobContext &context, const DevicePlace &place, const DevicePlace &known)
+{
+    constexpr int Attempts = 3;
     Bus &bus = context.bus();
     const AtBaud there(bus, place.baudRate);
     if (!there.entered() && there.entered().error().kind == ErrorKind::PortUnsuitable) {
@@ -61,11 +82,20 @@ Result<void> checkFree(JobContext &context, const DevicePlace &place)
     }
     if (!there.entered())
         return there.entered();
-    const auto reply = ping(bus, place.id);
+    auto reply = ping(bus, place.id);
+    for (int attempt = 1; attempt < Attempts && !reply && isInconclusive(reply.error()); ++attempt) {
+        if (const auto waited = bus.wait(20ms); !waited)
+            return waited;
+        if (const auto asked = look(context, known); !asked && endsAll(asked.error()))
+            return tl::unexpected(asked.error());
+        reply = ping(bus, place.id);
+    }
     if (!reply && reply.error().kind == ErrorKind::NothingReceived)
         return {};
     if (!reply && endsAll(reply.error()))
         return tl::unexpected(reply.error());
+    if (!reply && !isSomebody(reply.error()))
+        return failure(reply.error().kind, tr("%1; nothing was written").arg(reply.error().text));
     return failure(ErrorKind::InvalidArgument,
                    tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
 }
@@ -90,7 +120,7 @@ Result<Found> changePlace(JobContext &context, const DevicePlace &from, const De
     const AtBaud there(bus, from.baudRate);
     if (!there.entered())
         return tl::unexpected(there.entered().error());
-    if (const auto free = checkFree(context, to); !free)
+    if (const auto free = checkFree(context, to, from); !free)
         return tl::unexpected(free.error());
     if (const auto free = freeEeprom(bus, from, turnTorqueOff); !free)
         return tl::unexpected(free.error());
@@ -162,7 +192,7 @@ Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
         return ours;
     const bool moves = plan.after.id != plan.place.id || plan.after.baudRate != plan.place.baudRate;
     if (moves) {
-        if (const auto free = checkFree(context, plan.after); !free)
+        if (const auto free = checkFree(context, plan.after, plan.place); !free)
             return free;
     }
     const AtBaud there(bus, plan.place.baudRate);

@@ -3,6 +3,7 @@
 
 #include "core/bus/busthread.h"
 #include "core/bus/operations.h"
+#include "core/bus/scan.h"
 
 /// Several instructions with a meaning: functions of a JobContext and a plan, both values, that run on the bus thread.
 /// They know registers by address only; who makes the plan knows the table.
