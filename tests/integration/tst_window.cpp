@@ -8,6 +8,7 @@
 #include <QAbstractButton>
 #include <QComboBox>
 #include <QDialog>
+#include <QFileDialog>
 #include <QSettings>
 #include <QTemporaryDir>
 #include <QTreeView>
@@ -148,12 +149,23 @@ private slots:
         QTest::newRow("in a dialog") << QStringLiteral("dialog");
         QTest::newRow("in the menu bar's menu") << QStringLiteral("menu");
         QTest::newRow("in a context menu") << QStringLiteral("context menu");
+        QTest::newRow("in an editor's list") << QStringLiteral("list");
+        QTest::newRow("in the check list of bits") << QStringLiteral("bits");
+        QTest::newRow("in the scan options") << QStringLiteral("scan options");
+        QTest::newRow("in the save dialog") << QStringLiteral("save dialog");
     }
     void escapeStops()
     {
         QFETCH(QString, open);
         Device &device = selectFirst();
-        torqueOn(device);
+        if (open == u"bits") { // of a register that is locked under torque: somebody else turns it on meanwhile
+            QTRY_VERIFY(device.raw(u"Shutdown"));
+            openCell(QStringLiteral("Shutdown"), "bitPopup");
+            m_server->call([](sim::SimulatedBus &bus, LineTime) { bus.servo(1, 57600)->write(u"Torque Enable", 1); });
+            QTRY_VERIFY(device.isTorqueOn());
+        } else {
+            torqueOn(device);
+        }
         if (open == u"editor")
             QVERIFY(m_person->openEditor(QStringLiteral("Goal Position")));
         else if (open == u"dialog")
@@ -162,12 +174,21 @@ private slots:
             QVERIFY(m_person->openMenu(QStringLiteral("Device")));
         else if (open == u"context menu")
             QVERIFY(m_person->clickDevice(device, Qt::RightButton) && QApplication::activePopupWidget());
+        else if (open == u"list")
+            openCell(QStringLiteral("Status Return Level"), "enumEdit");
+        else if (open == u"scan options")
+            QVERIFY(m_person->click("scanOptionsButton"));
+        else if (open == u"save dialog")
+            openSaveDialog();
+        if (open == u"list" || open == u"bits" || open == u"scan options")
+            QTRY_VERIFY(QApplication::activePopupWidget());
         m_person->key(Qt::Key_Escape);
         QVERIFY(m_workshop->stop().isActive());
         QTRY_VERIFY(m_workshop->stop().isConfirmed());
         QCOMPARE(truth(1, u"Torque Enable"), 0);
         // Esc has kept its usual meaning.
-        QTRY_VERIFY(!m_person->editor() && !m_person->child<QDialog>("changeIdDialog"));
+        QTRY_VERIFY(!m_person->editor() && !m_person->child<QComboBox>("enumEdit"));
+        QTRY_VERIFY(!m_person->child<QDialog>("changeIdDialog") && !m_person->child<QDialog>("saveDialog"));
         QVERIFY(!QApplication::activePopupWidget());
     }
 
@@ -314,6 +335,24 @@ private:
         QVERIFY(m_person->pickForDevice(device, action));
         QTRY_VERIFY(m_person->child<QDialog>(name));
         QVERIFY(QTest::qWaitForWindowActive(m_person->child<QDialog>(name)));
+    }
+
+    /// By Enter on the row, which opens what its kind of register is edited with.
+    void openCell(const QString &field, const char *name)
+    {
+        QVERIFY(m_person->clickCell(field, ColumnKind::Value));
+        m_person->key(Qt::Key_Return);
+        QTRY_VERIFY(m_person->child<QWidget>(name));
+    }
+
+    void openSaveDialog()
+    {
+        QVERIFY(m_person->clickCell(QStringLiteral("Present Position"), ColumnKind::Plot));
+        m_person->key(Qt::Key_S, Qt::ControlModifier);
+        auto *dialog = m_person->child<QFileDialog>("saveDialog");
+        QVERIFY(dialog);
+        QVERIFY(dialog->testOption(QFileDialog::DontUseNativeDialog)); // whose keys nobody here would see
+        QVERIFY(QTest::qWaitForWindowActive(dialog));
     }
 
     std::int64_t truth(int id, QStringView name)

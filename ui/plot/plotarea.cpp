@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/plotarea.h"
 
+#include "ui/common/filedialogs.h"
 #include "ui/plot/plotbar.h"
 #include "ui/plot/plotchart.h"
 #include "ui/plot/plotexport.h"
@@ -292,12 +293,7 @@ void PlotArea::clear()
 void PlotArea::askForFile(
     const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save)
 {
-    auto *dialog = new QFileDialog(this, title);
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setAcceptMode(QFileDialog::AcceptSave);
-    dialog->setDefaultSuffix(suffix);
-    dialog->setNameFilter(tr("%1 files (*.%2)").arg(suffix.toUpper(), suffix));
-    dialog->selectFile(suggestedFileName(suffix));
+    QFileDialog *dialog = makeSaveDialog(this, title, suffix, suggestedFileName(suffix));
     connect(dialog, &QFileDialog::fileSelected, this, [this, save = std::move(save)](const QString &path) {
         const Result<void> result = save(path);
         emit message(result ? tr("Saved %1").arg(QDir::toNativeSeparators(path)) : result.error().text);
