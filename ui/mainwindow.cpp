@@ -166,7 +166,7 @@ void MainWindow::connectDevices()
     const auto inform = [this](const QString &text) { m_messages->post(MessageKind::Info, text); };
     connect(m_devices, &DevicePanel::message, this, inform);
     connect(m_table, &TablePanel::message, this, inform);
-    connect(m_plots, &PlotArea::message, this, inform);
+    connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 
 void MainWindow::connectPlots()

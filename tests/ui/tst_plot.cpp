@@ -362,25 +362,14 @@ private slots:
 
     void csvHasAColumnPerTrace()
     {
-        History position;
-        History current;
-        History hidden;
-        position.append(10s, 0); // before what is asked for
-        for (int i = 1; i <= 3; ++i) {
-            position.append(10s + 10ms * i, 100 * i);
-            hidden.append(10s + 10ms * i, 1);
-        }
-        current.append(10s + 20ms, -3);
-        current.append(10s + 25ms, -4);
-        std::vector traces{traceOf(position, QStringLiteral("°")), traceOf(current), traceOf(hidden)};
-        traces[0].scale = 0.5;
-        traces[0].decimals = 1;
-        traces[0].label = QStringLiteral("left, \"upper\" · Present Position");
-        traces[1].label = QStringLiteral("#2 · Present Current");
-        traces[2].visible = false;
+        CsvColumn position{QStringLiteral("left, \"upper\" · Present Position (°)"), 0.5, 0, 1, {}};
+        CsvColumn current{QStringLiteral("#2 · Present Current (mA)"), 1, 0, 0, {}};
+        for (int i = 1; i <= 3; ++i)
+            position.samples.push_back({10s + 10ms * i, 100 * i});
+        current.samples = {{10s + 20ms, -3}, {10s + 25ms, -4}};
         QBuffer buffer;
         buffer.open(QIODevice::WriteOnly);
-        writeCsv(buffer, traces, 10s + 1ms, 20s);
+        QVERIFY(writeCsv(buffer, std::vector{position, current}, false));
         QCOMPARE(QString::fromUtf8(buffer.data()),
             QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
                            "0.000000,50.0,\n"
@@ -391,7 +380,7 @@ private slots:
 
     void unwritableFileIsSaid()
     {
-        const auto result = saveCsv(QStringLiteral("/nowhere/at all.csv"), {}, 0s, 1s);
+        const auto result = saveCsv(QStringLiteral("/nowhere/at all.csv"), {}, false);
         QVERIFY(!result);
         QVERIFY(result.error().text.contains(QStringLiteral("at all.csv")));
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/uitest.h"
 #include "tests/ui/plotfixture.h"
-#include "ui/plot/plotexport.h"
+#include "ui/plot/csvsave.h"
 
 #include <QBuffer>
 #include <QFileDialog>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTimer>
 
 using namespace dynascope;
 using namespace std::chrono_literals;
@@ -25,13 +26,105 @@ private slots:
         bench.sample(position, 1s, 1024);
         bench.sample(position, 1500ms, 2048);
         QTRY_VERIFY(bench.chart().view().to() > 1500ms);
-        QSignalSpy messages(&bench.area, &PlotArea::message);
+        QSignalSpy messages(&bench.area, &PlotArea::posted);
         const QString path = save(bench, QStringLiteral("Save plots as CSV…"), QStringLiteral("plot.csv"));
-        QFile file(path);
-        QVERIFY(file.open(QIODevice::ReadOnly));
-        QCOMPARE(QString::fromUtf8(file.readAll()),
+        QCOMPARE(messages.count(), 0); // the window goes on meanwhile
+        QTRY_COMPARE(messages.count(), 1);
+        QCOMPARE(textOf(messages.front()), QStringLiteral("Saved %1").arg(path));
+        QCOMPARE(contentOf(path),
             QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n0.500000,180.00\n"));
-        QCOMPARE(messages.count(), 1);
+    }
+
+    void whatIsHiddenOrOutOfSightIsNotSaved()
+    {
+        PlotBench bench;
+        const Watch position = bench.watch(bench.first, "Present Position");
+        const Watch load = bench.watch(bench.second, "Present Load");
+        for (const Watch &watch : {position, load}) {
+            bench.area.addTrace(watch);
+            for (const LineTime at : {1s, 2s, 3s})
+                bench.sample(watch, at, 1024);
+        }
+        bench.model().setVisible(1, false);
+        const auto looks = bench.model().drawn(bench.area.palette());
+        CsvSave csv(bench.monitor);
+        QSignalSpy written(&csv, &CsvSave::written);
+        const QString path = m_directory.filePath(QStringLiteral("some.csv"));
+        csv.start(path, {{position, looks[0]}, {load, looks[1]}}, 1s + 1ms, 3s);
+        QTRY_COMPARE(written.count(), 1);
+        QCOMPARE(contentOf(path), QStringLiteral("Time (s),XM430-W350 #1 · Present Position (°)\n0.000000,90.00\n"));
+    }
+
+    void muchIsCopiedInSlices()
+    {
+        PlotBench bench;
+        const CsvSave::Trace trace = fill(bench, 250'000);
+        CsvSave csv(bench.monitor);
+        QSignalSpy written(&csv, &CsvSave::written);
+        int turns = 0; // of the event loop: in each of them a key could have been STOP
+        QTimer others;
+        connect(&others, &QTimer::timeout, this, [&turns] { ++turns; });
+        others.start(0);
+        const QString path = m_directory.filePath(QStringLiteral("much.csv"));
+        csv.start(path, {trace}, 0s, 1h);
+        QCOMPARE(turns, 0);
+        QTRY_COMPARE(written.count(), 1);
+        QVERIFY2(turns > 3, qPrintable(QString::number(turns)));
+        QCOMPARE(contentOf(path).count(u'\n'), 250'001);
+    }
+
+    void whatIsCancelledLeavesTheFileAsItWas_data()
+    {
+        QTest::addColumn<bool>("cleared");
+        QTest::newRow("cancelled") << false;
+        QTest::newRow("its samples cleared") << true;
+    }
+    void whatIsCancelledLeavesTheFileAsItWas()
+    {
+        QFETCH(bool, cleared);
+        PlotBench bench;
+        const CsvSave::Trace trace = fill(bench, 10);
+        const QString path = m_directory.filePath(QStringLiteral("kept.csv"));
+        QFile old(path);
+        QVERIFY(old.open(QIODevice::WriteOnly) && old.write("old") == 3);
+        old.close();
+        CsvSave csv(bench.monitor);
+        QSignalSpy failed(&csv, &CsvSave::failed);
+        csv.start(path, {trace}, 0s, 1h);
+        if (cleared)
+            bench.monitor.clear();
+        else
+            csv.cancel();
+        QTRY_COMPARE(failed.count(), 1);
+        QVERIFY(failed.front().front().value<Error>().kind == ErrorKind::Cancelled);
+        QCOMPARE(contentOf(path), QStringLiteral("old"));
+        QVERIFY(!csv.isRunning());
+    }
+
+    void oneFileAtATime()
+    {
+        PlotBench bench;
+        fill(bench, 10);
+        QSignalSpy messages(&bench.area, &PlotArea::posted);
+        const QString path = save(bench, QStringLiteral("Save plots as CSV…"), QStringLiteral("first.csv"));
+        bench.action(QStringLiteral("Save plots as CSV…"))->trigger();
+        QCOMPARE(textOf(messages.value(0)), QStringLiteral("%1 is being written").arg(path));
+        QTRY_COMPARE(messages.count(), 2);
+        QCOMPARE(textOf(messages.value(1)), QStringLiteral("Saved %1").arg(path));
+    }
+
+    void closingWaitsForWhatIsBeingWritten()
+    {
+        QString path;
+        {
+            PlotBench bench;
+            fill(bench, 50'000);
+            bench.area.addPanel();
+            path = save(bench, QStringLiteral("Save plots as CSV…"), QStringLiteral("closed.csv"));
+            QCoreApplication::processEvents(); // copied, and on its way
+            bench.area.closePanel(bench.area.panels().front());
+        }
+        QVERIFY(contentOf(path).count(u'\n') > 1);
     }
 
     void plotsAreSavedAsAPicture()
@@ -40,10 +133,10 @@ private slots:
         const Watch position = bench.watch(bench.first, "Present Position");
         bench.area.addTrace(position);
         bench.sample(position, 1s, 1024);
-        QSignalSpy messages(&bench.area, &PlotArea::message);
+        QSignalSpy messages(&bench.area, &PlotArea::posted);
         const QString path = save(bench, QStringLiteral("Save plots as a picture…"), QStringLiteral("plot.png"));
         QCOMPARE(QImage(path).size(), bench.area.panels().front()->size() * bench.area.devicePixelRatio());
-        QCOMPARE(messages.value(0).value(0).toString(), QStringLiteral("Saved %1").arg(path));
+        QCOMPARE(textOf(messages.value(0)), QStringLiteral("Saved %1").arg(path));
     }
 
     void whatCantBeSavedSaysWhy()
@@ -51,7 +144,7 @@ private slots:
         const QTemporaryDir directory;
         const QString nowhere = directory.filePath(QStringLiteral("no/such/folder/plot"));
         const QString refused = QStringLiteral("%1 could not be written: No such file or directory").arg(nowhere);
-        const Result<void> csv = saveCsv(nowhere, {}, 0s, 1s);
+        const Result<void> csv = saveCsv(nowhere, {}, false);
         QVERIFY(!csv);
         QCOMPARE(csv.error().text, refused);
         const QString here = directory.filePath(QStringLiteral("plot.png"));
@@ -62,7 +155,7 @@ private slots:
         QBuffer closedToWriting;
         closedToWriting.open(QIODevice::ReadOnly);
         QTest::ignoreMessage(QtWarningMsg, "QIODevice::write (QBuffer): ReadOnly device");
-        QVERIFY(!writeCsv(closedToWriting, {}, 0s, 1s)); // already its first line
+        QVERIFY(!writeCsv(closedToWriting, {}, false)); // already its first line
     }
 
     void tracesComeBackWithTheirDevices()
@@ -114,6 +207,23 @@ private slots:
     }
 
 private:
+    static QString textOf(const QList<QVariant> &posted) { return posted.value(0).value<Message>().text; }
+    static QString contentOf(const QString &path)
+    {
+        QFile file(path);
+        return file.open(QIODevice::ReadOnly) ? QString::fromUtf8(file.readAll()) : QString();
+    }
+
+    /// A trace with so many samples, a millisecond apart.
+    static CsvSave::Trace fill(PlotBench &bench, int count)
+    {
+        const Watch position = bench.watch(bench.first, "Present Position");
+        bench.area.addTrace(position);
+        for (int i = 1; i <= count; ++i)
+            bench.sample(position, 1ms * i, i % 4096);
+        return {position, bench.model().drawn(bench.area.palette()).front()};
+    }
+
     /// Picks the action and answers its dialog; where the file is.
     QString save(PlotBench &bench, const QString &action, const QString &name)
     {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/plotarea.h"
 
-#include "ui/common/filedialogs.h"
 #include "ui/plot/plotbar.h"
 #include "ui/plot/plotchart.h"
-#include "ui/plot/plotexport.h"
 #include "ui/plot/plotpanel.h"
+#include "ui/plot/plotsaver.h"
 #include "ui/plot/tracemodel.h"
 
-#include <QDir>
-#include <QFileDialog>
 #include <QSplitter>
 #include <QVBoxLayout>
 
@@ -36,6 +33,7 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
     , m_monitor(monitor)
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
+    , m_saver(new PlotSaver(monitor, this))
 {
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -76,7 +74,8 @@ void PlotArea::connectBar()
     });
     connect(m_bar, &PlotBar::clearRequested, this, &PlotArea::clear);
     connect(m_bar, &PlotBar::csvRequested, this, &PlotArea::saveCsvFile);
-    connect(m_bar, &PlotBar::pictureRequested, this, &PlotArea::savePictureFile);
+    connect(m_bar, &PlotBar::pictureRequested, this, [this] { m_saver->askForPicture(m_splitter->grab()); });
+    connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
 }
 
@@ -290,35 +289,20 @@ void PlotArea::clear()
         panel->model().refreshValues();
 }
 
-void PlotArea::askForFile(
-    const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save)
-{
-    QFileDialog *dialog = makeSaveDialog(this, title, suffix, suggestedFileName(suffix));
-    connect(dialog, &QFileDialog::fileSelected, this, [this, save = std::move(save)](const QString &path) {
-        const Result<void> result = save(path);
-        emit message(result ? tr("Saved %1").arg(QDir::toNativeSeparators(path)) : result.error().text);
-    });
-    dialog->open();
-}
-
 void PlotArea::saveCsvFile()
 {
     // The view as it is now: a live one moves on while the person chooses a name.
     const TimeView view = m_present->chart().view();
-    askForFile(tr("Save the samples in sight"), QStringLiteral("csv"), [this, view](const QString &path) {
-        std::vector<TraceData> all;
+    const auto traces = [this] {
+        std::vector<CsvSave::Trace> all;
         for (const PlotPanel *panel : m_panels) {
             const std::vector<TraceData> drawn = panel->model().drawn(palette());
-            all.insert(all.end(), drawn.begin(), drawn.end());
+            for (std::size_t row = 0; row < drawn.size(); ++row)
+                all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row]});
         }
-        return saveCsv(path, all, view.from(), view.to());
-    });
-}
-
-void PlotArea::savePictureFile()
-{
-    askForFile(tr("Save the plots as a picture"), QStringLiteral("png"),
-        [picture = m_splitter->grab()](const QString &path) { return savePicture(path, picture); });
+        return all;
+    };
+    m_saver->askForCsv(traces, view.from(), view.to());
 }
 
 QByteArray PlotArea::saveState() const

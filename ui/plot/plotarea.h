@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/monitor.h"
+#include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
 #include "ui/plot/plotstate.h"
 #include "ui/plot/timewindow.h"
@@ -16,6 +17,7 @@ namespace dynascope {
 
 class PlotBar;
 class PlotPanel;
+class PlotSaver;
 
 /// One or more plot panels under a common tool bar. Watches what it shows and stops watching what it no longer shows.
 class PlotArea : public QWidget
@@ -47,7 +49,7 @@ public:
 
 signals:
     void tracesChanged();
-    void message(const QString &text);
+    void posted(const dynascope::Message &message);
 
 protected:
     void showEvent(QShowEvent *event) override;
@@ -65,15 +67,14 @@ private:
     void clear();
     void fit();
     void saveCsvFile();
-    void savePictureFile();
     void restoreTraces(Device *device);
-    void askForFile(const QString &title, const QString &suffix, std::function<Result<void>(const QString &)> save);
 
     Session &m_session;
     Monitor &m_monitor;
     TimeWindow m_window;
     PlotBar *m_bar;
     QSplitter *m_splitter;
+    PlotSaver *m_saver;
     std::vector<PlotPanel *> m_panels; ///< the splitter's
     PlotPanel *m_present = nullptr;    ///< where new traces go
     QTimer m_frames;

@@ -20,14 +20,13 @@ class PlotExport
     Q_DECLARE_TR_FUNCTIONS(PlotExport)
 };
 
-/// A trace's samples that are still to be written.
+/// A column's samples that are still to be written.
 struct Reader {
-    const TraceData *trace;
-    std::size_t next;
-    std::size_t end;
+    const CsvColumn *column;
+    std::size_t next = 0;
 
-    bool isDone() const { return next == end; }
-    LineTime time() const { return trace->history->at(next).at; }
+    bool isDone() const { return next == column->samples.size(); }
+    const History::Sample &sample() const { return column->samples[next]; }
 };
 
 QByteArray quoted(const QString &text)
@@ -43,7 +42,7 @@ const Reader *earliest(const std::vector<Reader> &readers)
 {
     const Reader *first = nullptr;
     for (const Reader &reader : readers) {
-        if (!reader.isDone() && (!first || reader.time() < first->time()))
+        if (!reader.isDone() && (!first || reader.sample().at < first->sample().at))
             first = &reader;
     }
     return first;
@@ -60,47 +59,47 @@ tl::unexpected<Error> notWritten(const QFileDevice &file)
 
 } // namespace
 
-bool writeCsv(QIODevice &to, std::span<const TraceData> traces, LineTime from, LineTime end)
+bool writeCsv(QIODevice &to, std::span<const CsvColumn> columns, const std::atomic<bool> &cancelled)
 {
     std::vector<Reader> readers;
     QByteArray line = "Time (s)";
-    for (const TraceData &trace : traces) {
-        if (!trace.visible)
-            continue;
-        line +=
-            ',' + quoted(trace.unit.isEmpty() ? trace.label : QStringLiteral("%1 (%2)").arg(trace.label, trace.unit));
-        const bool hasAny = trace.isDrawn();
-        readers.push_back(
-            {&trace, hasAny ? trace.history->indexAt(from) : 0, hasAny ? trace.history->indexAt(end) : 0});
+    for (const CsvColumn &column : columns) {
+        line += ',' + quoted(column.title);
+        readers.push_back({&column});
     }
     if (to.write(line + '\n') < 0)
         return false;
     const Reader *first = earliest(readers);
-    const LineTime zero = first ? first->time() : LineTime{};
+    const LineTime zero = first ? first->sample().at : LineTime{};
     while (first) {
-        const LineTime now = first->time();
+        const LineTime now = first->sample().at;
         line = QByteArray::number(std::chrono::duration<double>(now - zero).count(), 'f', 6);
         for (Reader &reader : readers) {
             line += ',';
-            if (reader.isDone() || reader.time() != now)
+            if (reader.isDone() || reader.sample().at != now)
                 continue;
-            line += QByteArray::number(
-                reader.trace->value(reader.trace->history->at(reader.next).raw), 'f', reader.trace->decimals);
+            const CsvColumn &column = *reader.column;
+            line += QByteArray::number(reader.sample().raw * column.scale + column.offset, 'f', column.decimals);
             ++reader.next; // a second one at the same moment gets a line of its own
         }
-        if (to.write(line + '\n') < 0)
+        if (cancelled || to.write(line + '\n') < 0)
             return false;
         first = earliest(readers);
     }
     return true;
 }
 
-Result<void> saveCsv(const QString &path, std::span<const TraceData> traces, LineTime from, LineTime end)
+Result<void> saveCsv(const QString &path, std::span<const CsvColumn> columns, const std::atomic<bool> &cancelled)
 {
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly))
         return notWritten(file);
-    if (!writeCsv(file, traces, from, end) || !file.commit())
+    const bool isWhole = writeCsv(file, columns, cancelled);
+    if (cancelled) {
+        return failure(ErrorKind::Cancelled, PlotExport::tr("%1 was not written: saving was cancelled")
+                                                 .arg(QDir::toNativeSeparators(path)));
+    }
+    if (!isWhole || !file.commit())
         return notWritten(file);
     return {};
 }

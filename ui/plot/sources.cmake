@@ -3,6 +3,7 @@ target_sources(dynascope_ui PRIVATE
     plot/chartframe.cpp plot/chartframe.h
     plot/columncache.cpp plot/columncache.h
     plot/columnraster.cpp plot/columnraster.h
+    plot/csvsave.cpp plot/csvsave.h
     plot/historymark.h
     plot/plotarea.cpp plot/plotarea.h
     plot/plotbar.cpp plot/plotbar.h
@@ -10,6 +11,7 @@ target_sources(dynascope_ui PRIVATE
     plot/plotexport.cpp plot/plotexport.h
     plot/plotpanel.cpp plot/plotpanel.h
     plot/plotreadout.cpp plot/plotreadout.h
+    plot/plotsaver.cpp plot/plotsaver.h
     plot/plotscales.cpp plot/plotscales.h
     plot/plotstate.cpp plot/plotstate.h
     plot/timewindow.cpp plot/timewindow.h
