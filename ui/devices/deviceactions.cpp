@@ -58,6 +58,7 @@ QAction *DeviceActions::add(const QString &name, const QString &iconName, const 
     auto *action = new QAction(icon(iconName), text, this);
     action->setObjectName(name + QStringLiteral("Action"));
     action->setShortcut(QKeySequence(shortcut));
+    action->setAutoRepeat(false); // a key held down is one order
     QString whole = tip;
     if (!shortcut.isEmpty())
         whole += QStringLiteral(" (%1)").arg(action->shortcut().toString(QKeySequence::NativeText));
@@ -196,8 +197,15 @@ void DeviceActions::torqueOff()
 
 void DeviceActions::readAll()
 {
-    for (Device *device : reachable())
-        m_workbench.commands.readAll(*device);
+    for (Device *device : reachable()) {
+        const DeviceKey key = device->key();
+        if (m_reading.insert(key).second) {
+            m_workbench.commands.readAll(*device, [here = QPointer<DeviceActions>(this), key](const Result<void> &) {
+                if (here)
+                    here->m_reading.erase(key);
+            });
+        }
+    }
 }
 
 void DeviceActions::reboot()

@@ -7,6 +7,8 @@
 
 #include <QAction>
 
+#include <set>
+
 class QDialog;
 
 namespace dynascope {
@@ -62,6 +64,7 @@ private:
     Workbench m_workbench;
     QWidget *m_window;
     std::vector<DeviceKey> m_selected;
+    std::set<DeviceKey> m_reading; ///< all of it is being read: one job each, however often it is asked for
     QPointer<LineSession> m_line;
     int m_baudRate = 0;
     QAction *m_identify, *m_torqueOn, *m_torqueOff, *m_readAll, *m_reboot, *m_rename, *m_changeId, *m_changeBaud,

@@ -90,6 +90,7 @@ QAction *PlotBar::add(const QString &iconName, const QString &text, const QStrin
 {
     QAction *action = addAction(icon(iconName), text);
     action->setToolTip(tip);
+    action->setAutoRepeat(false);
     return action;
 }
 

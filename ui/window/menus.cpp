@@ -32,6 +32,7 @@ QAction *Menus::add(
     QAction *action = menu->addAction(text);
     action->setObjectName(name);
     action->setShortcut(QKeySequence(shortcut));
+    action->setAutoRepeat(false); // a key held down is one order
     if (!iconName.isEmpty())
         action->setIcon(icon(iconName));
     return action;

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/uitest.h"
+#include "tests/support/workbenchfixture.h"
+#include "ui/devices/deviceactions.h"
+
+#include <QLabel>
+#include <QMessageBox>
+#include <QSignalSpy>
+
+using namespace dynascope;
+
+class TestDeviceActions : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init()
+    {
+        m_bench = std::make_unique<test::WorkbenchFixture>();
+        m_line = &m_bench->session.open(QStringLiteral("sim"), 1000000);
+        QTRY_COMPARE(m_line->state(), BusThread::State::Open);
+        m_bench->scanner.start(*m_line, {{1000000}, 0, 252});
+        QTRY_COMPARE(m_bench->session.devices().size(), std::size_t(2));
+        QTRY_VERIFY(!m_bench->scanner.isRunning());
+        m_window = std::make_unique<QWidget>();
+        m_window->show();
+        m_actions = new DeviceActions(m_bench->workbench(), m_window.get());
+    }
+    void cleanup()
+    {
+        m_window.reset();
+        m_bench.reset();
+    }
+
+    void readAllIsOneJobADevice()
+    {
+        const std::vector<Device *> devices = m_bench->session.devices();
+        select(devices);
+        trigger("readAllAction");
+        for (const Device *device : devices)
+            QTRY_VERIFY(device->raw(u"Present Temperature"));
+        m_bench->lines.unplug(); // each job that is there fails
+        QSignalSpy failed(&m_bench->commands, &Commands::failed);
+        for (int press = 0; press < 5; ++press)
+            trigger("readAllAction");
+        QTRY_VERIFY(m_line->state() != BusThread::State::Open);
+        QTRY_COMPARE(failed.count(), 2);
+        QCoreApplication::processEvents();
+        QCOMPARE(failed.count(), 2);
+    }
+
+private:
+    void select(const std::vector<Device *> &devices) { m_actions->setSelection(devices, m_line, 1000000); }
+    void trigger(const char *name) const
+    {
+        auto *action = m_actions->findChild<QAction *>(QString::fromLatin1(name));
+        QVERIFY(action && action->isEnabled());
+        action->trigger();
+    }
+
+    std::unique_ptr<test::WorkbenchFixture> m_bench;
+    std::unique_ptr<QWidget> m_window;
+    LineSession *m_line = nullptr;
+    DeviceActions *m_actions = nullptr;
+};
+
+DYNASCOPE_UI_TEST(TestDeviceActions)
+#include "tst_deviceactions.moc"
