@@ -50,6 +50,30 @@ private slots:
         QVERIFY(bar.isHidden());
     }
 
+    void aWarningIsNotLostBehindAnError_data()
+    {
+        QTest::addColumn<QList<MessageKind>>("kinds");
+        const auto warning = MessageKind::Warning;
+        const auto error = MessageKind::Error;
+        QTest::newRow("before a success") << QList{error, warning, MessageKind::Success};
+        QTest::newRow("before something to know") << QList{error, warning, MessageKind::Info};
+        QTest::newRow("after a success") << QList{error, MessageKind::Success, warning};
+        QTest::newRow("shown before the error came") << QList{warning, error};
+        QTest::newRow("shown before, then a success") << QList{warning, error, MessageKind::Success};
+    }
+    void aWarningIsNotLostBehindAnError()
+    {
+        QFETCH(QList<MessageKind>, kinds);
+        MessageBar bar;
+        for (const MessageKind kind : kinds)
+            bar.post(kind, QString::number(int(kind)));
+        QCOMPARE(bar.kind(), MessageKind::Error);
+        bar.dismiss();
+        QCOMPARE(bar.kind(), MessageKind::Warning);
+        bar.dismiss();
+        QVERIFY(bar.isHidden());
+    }
+
     void theNewestOfATopicReplacesWhatWasSaidBefore()
     {
         MessageBar bar;

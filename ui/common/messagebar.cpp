@@ -117,11 +117,19 @@ void MessageBar::post(Message message)
     };
     if (isAbout(m_waiting))
         m_waiting.reset();
-    if (m_dismissable && m_current && message.kind < m_current->kind && !isAbout(m_current)) {
-        m_waiting = std::move(message);
-        return;
-    }
+    if (m_dismissable && m_current && message.kind < m_current->kind && !isAbout(m_current))
+        return wait(std::move(message));
+    // Who has to dismiss a message must have seen it: it comes back after what matters more.
+    if (m_dismissable && m_current && m_current->kind == MessageKind::Warning && message.kind > m_current->kind
+        && !isAbout(m_current))
+        wait(std::move(*m_current));
     show(std::move(message));
+}
+
+void MessageBar::wait(Message message)
+{
+    if (!m_waiting || message.kind >= m_waiting->kind)
+        m_waiting = std::move(message);
 }
 
 void MessageBar::show(Message message)

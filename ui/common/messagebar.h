@@ -23,8 +23,8 @@ struct Message {
     QString topic{};                ///< what it is about: the newest of a topic replaces those before it, whatever their rank
 };
 
-/// One line above the work area: icon, text, perhaps one button. Shows the message that matters most; one of lower rank
-/// waits behind it, and only the newest of those. The same text again counts up. Success and info go by themselves. Texts
+/// One line above the work area: icon, text, perhaps one button. Shows the message that matters most; of those of lower
+/// rank the one that matters most waits behind it, the newest where several do alike. The same text again counts up. Success and info go by themselves. Texts
 /// may begin in lower case and end without a full stop.
 class MessageBar : public QFrame
 {
@@ -51,6 +51,7 @@ protected:
 
 private:
     void show(Message message);
+    void wait(Message message); ///< behind the present one
     void updateText();
 
     QLabel *m_icon;
