@@ -3,8 +3,6 @@
 #include "tests/support/workbenchfixture.h"
 #include "ui/devices/deviceactions.h"
 
-#include <QLabel>
-#include <QMessageBox>
 #include <QSignalSpy>
 
 using namespace dynascope;

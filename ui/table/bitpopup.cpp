@@ -29,6 +29,7 @@ BitPopup::BitPopup(const Field &field, std::int64_t raw, QWidget *parent)
     setObjectName(QStringLiteral("bitPopup"));
     setAttribute(Qt::WA_DeleteOnClose);
     setFrameShape(QFrame::StyledPanel);
+    setAccessibleName(field.name);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(16, 12, 16, 12);
     layout->setSpacing(8);
@@ -64,6 +65,7 @@ QWidget *BitPopup::makeRow(const BitField &bits)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(new QLabel(bits.name, row));
     auto *list = new QComboBox(row);
+    list->setAccessibleName(bits.name);
     for (const EnumValue &value : bits.values)
         list->addItem(value.text, static_cast<qlonglong>(value.value));
     if (bits.values.empty()) {

@@ -15,6 +15,7 @@ EnumEdit::EnumEdit(const Field &field, const EffectiveField &effective, std::opt
     : QComboBox(parent)
 {
     setObjectName(QStringLiteral("enumEdit"));
+    setAccessibleName(field.name);
     for (const EnumValue &value : field.values) {
         if (checkRange(field, effective, value.value))
             addItem(QStringLiteral("%1  %2").arg(value.value).arg(value.text), static_cast<qlonglong>(value.value));

@@ -110,6 +110,8 @@ void GoalSlider::refresh()
     const Field &field = device->table().fields()[static_cast<std::size_t>(m_field)];
     const FieldValue &value = device->value(m_field);
     m_name->setText(field.name);
+    m_slider->setAccessibleName(field.name);
+    m_spin->setAccessibleName(field.name);
     const QString lock = device->lockReason(m_field);
     const bool ready = device->isTorqueOn() && lock.isEmpty() && value.raw;
     const QString why = !lock.isEmpty() ? lock : tr("Goals can be moved while torque is on.");

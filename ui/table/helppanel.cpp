@@ -124,6 +124,7 @@ void HelpPanel::setFolded(bool folded)
     m_area->setVisible(!folded);
     m_fold->setIcon(icon(folded ? QStringLiteral("chevron-up") : QStringLiteral("chevron-down"), IconTint::Dimmed));
     m_fold->setToolTip(folded ? tr("Show what the register is for") : tr("Fold this to one line"));
+    m_fold->setAccessibleName(m_fold->toolTip());
 }
 
 void HelpPanel::setTight(bool tight)

@@ -28,6 +28,7 @@ LockBar::LockBar(QWidget *parent)
     close->setIcon(icon(QStringLiteral("close")));
     close->setAutoRaise(true);
     close->setToolTip(tr("Leave it as it is"));
+    close->setAccessibleName(close->toolTip());
     auto *layout = new QHBoxLayout(this);
     layout->setContentsMargins(12, 6, 8, 6);
     layout->setSpacing(8);

@@ -20,6 +20,7 @@ TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
     layout->setContentsMargins(8, 8, 8, 8);
     layout->setSpacing(6);
     m_search->setObjectName(QStringLiteral("tableSearch"));
+    m_search->setAccessibleName(tr("Search the registers"));
     m_search->setPlaceholderText(tr("Search name, address, help"));
     m_search->setToolTip(tr("Search the registers (Ctrl+F)"));
     m_search->setClearButtonEnabled(true);

@@ -44,6 +44,7 @@ TableView::TableView(QWidget *parent)
     : QTreeView(parent)
 {
     setObjectName(QStringLiteral("tableView"));
+    setAccessibleName(tr("Control table"));
     setFrameShape(QFrame::NoFrame);
     setUniformRowHeights(true);
     setAllColumnsShowFocus(false);

@@ -18,6 +18,7 @@ ValueEdit::ValueEdit(Meaning meaning, const QString &text, std::optional<std::in
     , m_raw(raw)
 {
     setObjectName(QStringLiteral("valueEdit"));
+    setAccessibleName(m_meaning.field.name);
     setFont(numberFont(font()));
     setAlignment(Qt::AlignRight);
     setMaxLength(64);

@@ -147,6 +147,7 @@ void Menus::makeDeviceMenu(const std::vector<QAction *> &actions)
     // Esc is caught by a filter that works in editors and dialogs too; a shortcut here would only be in its way.
     QAction *stop =
         add(menu, QStringLiteral("stopAction"), tr("STOP, torque off everywhere\tEsc"), {}, QStringLiteral("stop"));
+    stop->setToolTip(tr("Turns the torque of every device off at once (Esc)"));
     connect(stop, &QAction::triggered, this, &Menus::stopRequested);
     menu->addSeparator();
     for (QAction *action : actions) {
