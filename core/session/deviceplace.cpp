@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/deviceplace.h"
 
-#include "core/session/device.h"
+#include "core/session/linesession.h"
 
 namespace dynascope {
 
@@ -20,6 +20,35 @@ DevicePlace placeOf(const Found &found, const ControlTable &table, const QString
 DevicePlace placeOf(const Device &device)
 {
     return placeOf(device.found(), device.table(), device.displayName());
+}
+
+DevicePlace placeAfterReset(const Device &device, ResetOption option)
+{
+    DevicePlace place = placeOf(device);
+    const Field *id = device.table().find(Known::Id);
+    const Field *baud = device.table().find(Known::BaudRate);
+    if (option == ResetOption::All)
+        place.id = static_cast<std::uint8_t>(id ? id->initial.value_or(1) : 1);
+    if (option != ResetOption::AllButIdAndBaud) {
+        const auto code = static_cast<int>(baud ? baud->initial.value_or(1) : 1);
+        place.baudRate = device.table().baudRate(code).value_or(57600);
+    }
+    return place;
+}
+
+IdHolder holderOf(const Device &device, int id)
+{
+    if (!device.line())
+        return {};
+    for (const auto &other : device.line()->devices()) {
+        if (other.get() == &device || other->baudRate() != device.baudRate())
+            continue;
+        if (other->id() == id)
+            return {other.get(), false};
+        if (other->raw(Known::SecondaryId) == id)
+            return {other.get(), true};
+    }
+    return {};
 }
 
 } // namespace dynascope

@@ -12,4 +12,15 @@ class Device;
 DevicePlace placeOf(const Found &found, const ControlTable &table, const QString &name);
 DevicePlace placeOf(const Device &device);
 
+/// Where a Factory Reset leaves the device: its table's defaults for what the option doesn't keep.
+DevicePlace placeAfterReset(const Device &device, ResetOption option);
+
+/// Another device of the line that answers to an ID.
+struct IdHolder {
+    const Device *device = nullptr; ///< none: the ID is free
+    bool isSecondary = false;       ///< by its Secondary ID
+};
+/// Who answers to `id` at the device's baud rate, itself left out.
+IdHolder holderOf(const Device &device, int id);
+
 } // namespace dynascope

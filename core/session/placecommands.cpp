@@ -171,19 +171,13 @@ void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePla
 
 void Commands::factoryReset(Device &device, ResetOption option, Done done)
 {
-    FactoryResetPlan plan{placeOf(device), option, placeOf(device)};
-    const Field *id = device.table().find(Known::Id);
-    const Field *baud = device.table().find(Known::BaudRate);
-    if (!id || !baud) {
+    const FactoryResetPlan plan{placeOf(device), option, placeAfterReset(device, option)};
+    if (!device.table().find(Known::Id) || !device.table().find(Known::BaudRate)) {
         return refuse(&device,
                       {ErrorKind::NotSupported,
                        tr("It isn't known where %1 would be after a reset").arg(device.displayName())},
                       done);
     }
-    if (option == ResetOption::All)
-        plan.after.id = static_cast<std::uint8_t>(id->initial.value_or(1));
-    if (option != ResetOption::AllButIdAndBaud)
-        plan.after.baudRate = device.table().baudRate(static_cast<int>(baud->initial.value_or(1))).value_or(57600);
 
     auto report = reporting(device,
                             tr("%1 is reset; it is now ID %2 at %3 bps")
@@ -218,13 +212,10 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
         return invalid(tr("An ID is 0 to %1, not %2").arg(MaximumId).arg(newId));
     if (newId == device.id())
         return invalid(tr("%1 has that ID already").arg(device.displayName()));
-    for (const auto &other : device.line()->devices()) {
-        if (other.get() == &device || other->baudRate() != device.baudRate())
-            continue;
-        if (other->id() == newId)
-            return invalid(tr("ID %1 is taken by %2").arg(newId).arg(other->displayName()));
-        if (other->raw(Known::SecondaryId) == newId)
-            return invalid(tr("ID %1 is the Secondary ID of %2").arg(newId).arg(other->displayName()));
+    if (const IdHolder holder = holderOf(device, newId); holder.device) {
+        return invalid((holder.isSecondary ? tr("ID %1 is the Secondary ID of %2") : tr("ID %1 is taken by %2"))
+                           .arg(newId)
+                           .arg(holder.device->displayName()));
     }
     ChangeIdPlan plan{placeOf(device), static_cast<std::uint8_t>(newId), field->address, turnTorqueOff};
     auto report = reporting(device, tr("%1 now has ID %2").arg(device.displayName()).arg(newId), std::move(done));

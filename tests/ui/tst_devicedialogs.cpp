@@ -71,6 +71,16 @@ private slots:
         QVERIFY(canAccept(dialog));
     }
 
+    void aSecondaryIdIsTakenToo()
+    {
+        Device *other = m_bench->device(4, 1000000);
+        other->takeReadBack(other->table().indexOf(u"Secondary ID"), 77);
+        ChangeIdDialog dialog(*m_device, m_bench->commands, nullptr);
+        QCOMPARE(dialog.findChild<QLabel *>(QStringLiteral("takenIds"))->text(), QStringLiteral("4, 77"));
+        dialog.findChild<QSpinBox *>(QStringLiteral("newId"))->setValue(77);
+        QVERIFY(!canAccept(dialog));
+    }
+
     void anIdAtAnotherRateIsFree()
     {
         ChangeIdDialog dialog(*m_bench->device(1, 57600), m_bench->commands, nullptr);

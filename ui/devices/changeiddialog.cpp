@@ -14,32 +14,20 @@ namespace dynascope {
 
 namespace {
 
+constexpr int LargestId = 252;
+
+/// Secondary IDs too: a device answers to both.
 QStringList takenIds(const Device &device)
 {
     QStringList ids;
-    if (!device.line())
-        return ids;
-    for (const auto &other : device.line()->devices()) {
-        if (other.get() != &device && other->baudRate() == device.baudRate())
-            ids << QString::number(other->id());
+    for (int id = 0; id <= LargestId; ++id) {
+        if (holderOf(device, id).device)
+            ids << QString::number(id);
     }
     return ids;
 }
 
 } // namespace
-
-QString takenBy(const Device &device, int id)
-{
-    if (!device.line())
-        return {};
-    for (const auto &other : device.line()->devices()) {
-        if (other.get() == &device || other->baudRate() != device.baudRate())
-            continue;
-        if (other->id() == id || other->raw(u"Secondary ID") == id)
-            return other->displayName();
-    }
-    return {};
-}
 
 ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *parent)
     : DeviceDialog(device, tr("Change ID"), tr("Change ID"), parent)
@@ -49,13 +37,14 @@ ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *pare
     setObjectName(QStringLiteral("changeIdDialog"));
     m_id->setObjectName(QStringLiteral("newId"));
     m_id->setAccessibleName(tr("New ID"));
-    m_id->setRange(0, 252);
+    m_id->setRange(0, LargestId);
     m_id->setValue(firstFree());
     m_id->selectAll();
     form()->addRow(tr("Present ID"), new QLabel(QString::number(device.id()), this));
     form()->addRow(tr("New ID"), m_id);
     const QStringList taken = takenIds(device);
     auto *list = new QLabel(taken.isEmpty() ? tr("none") : taken.join(QStringLiteral(", ")), this);
+    list->setObjectName(QStringLiteral("takenIds"));
     list->setWordWrap(true);
     form()->addRow(tr("Taken at %1").arg(baudText(device.baudRate())), list);
     beginWith(m_id);
@@ -70,8 +59,8 @@ int ChangeIdDialog::firstFree() const
         return line && std::ranges::any_of(line->devices(), [id](const auto &other) { return other->id() == id; });
     };
     int fallback = device()->id();
-    for (int id = 1; id <= 252; ++id) {
-        if (id == device()->id() || !takenBy(*device(), id).isEmpty())
+    for (int id = 1; id <= LargestId; ++id) {
+        if (id == device()->id() || holderOf(*device(), id).device)
             continue;
         if (!standsSomewhere(id))
             return id;
@@ -86,12 +75,12 @@ void ChangeIdDialog::check()
     if (!device())
         return;
     const int id = m_id->value();
-    const QString other = takenBy(*device(), id);
+    const Device *other = holderOf(*device(), id).device;
     if (id == device()->id())
         setNote(MessageKind::Error, tr("That is its ID now."));
-    else if (!other.isEmpty())
+    else if (other)
         setNote(MessageKind::Error,
-            tr("ID %1 is taken by %2. Two devices with one ID can't be told apart.").arg(id).arg(other));
+            tr("ID %1 is taken by %2. Two devices with one ID can't be told apart.").arg(id).arg(other->displayName()));
     else if (!torqueAllows())
         setNote(MessageKind::Error, tr("The servo keeps its ID locked while its torque is on."));
     else

@@ -29,7 +29,4 @@ private:
     QSpinBox *m_id;
 };
 
-/// Who answers to `id` at the device's baud rate, itself left out: a name, empty where nobody does.
-QString takenBy(const Device &device, int id);
-
 } // namespace dynascope

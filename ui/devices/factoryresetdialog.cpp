@@ -28,22 +28,9 @@ FactoryResetDialog::FactoryResetDialog(Device &device, Commands &commands, QWidg
     FactoryResetDialog::check();
 }
 
-FactoryResetDialog::Place FactoryResetDialog::after(ResetOption option) const
-{
-    Place place{device()->id(), device()->baudRate()};
-    const Field *id = device()->table().find(u"ID");
-    const Field *baud = device()->table().find(u"Baud Rate");
-    if (option == ResetOption::All)
-        place.id = id ? static_cast<int>(id->initial.value_or(1)) : 1;
-    if (option != ResetOption::AllButIdAndBaud)
-        place.baudRate =
-            device()->table().baudRate(baud ? static_cast<int>(baud->initial.value_or(1)) : 1).value_or(57600);
-    return place;
-}
-
 void FactoryResetDialog::addOption(ResetOption option, const QString &name, const QString &title)
 {
-    const Place place = after(option);
+    const DevicePlace place = placeAfterReset(*device(), option);
     auto *button = new QRadioButton(title, this);
     button->setObjectName(name);
     auto *label = new QLabel(this);
@@ -67,9 +54,9 @@ void FactoryResetDialog::check()
 {
     if (!device())
         return;
-    const Place place = after(option());
+    const DevicePlace place = placeAfterReset(*device(), option());
     const LineSession *line = device()->line();
-    const Device *other = line ? line->deviceAt(static_cast<std::uint8_t>(place.id), place.baudRate) : nullptr;
+    const Device *other = line ? line->deviceAt(place.id, place.baudRate) : nullptr;
     if (other && other != device()) {
         setNote(MessageKind::Error, tr("%1 has ID %2 at %3 already: two devices would share one ID.")
                                         .arg(other->displayName()).arg(place.id).arg(baudText(place.baudRate)));

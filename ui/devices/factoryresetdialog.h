@@ -24,12 +24,6 @@ protected:
     void check() override;
 
 private:
-    /// Where the device would stand afterwards.
-    struct Place {
-        int id = 0;
-        int baudRate = 0;
-    };
-    Place after(ResetOption option) const;
     void addOption(ResetOption option, const QString &name, const QString &title);
     ResetOption option() const;
 
