@@ -24,6 +24,28 @@ private slots:
         QCOMPARE(nameOf(QStringLiteral("/dev/ttyUSB0"), 4), QString());
     }
 
+    void areShortAndOneLineWhateverTheSettingsHold_data()
+    {
+        QTest::addColumn<QString>("kept");
+        QTest::addColumn<QString>("shown");
+        const QString longest(40, u'x');
+        QTest::newRow("a tag") << QStringLiteral("<img src=x>") << QStringLiteral("<img src=x>");
+        QTest::newRow("the longest") << longest << longest;
+        QTest::newRow("too long") << QString(100'000, u'x') << longest;
+        QTest::newRow("lines") << QStringLiteral(" left\n arm\t") << QStringLiteral("left arm");
+        QTest::newRow("nothing") << QStringLiteral(" \n ") << QString();
+    }
+    void areShortAndOneLineWhateverTheSettingsHold()
+    {
+        QFETCH(QString, kept);
+        nameOne(QStringLiteral("/dev/ttyUSB0"), 4, QStringLiteral("shoulder"));
+        QSettings settings;
+        settings.beginGroup(QStringLiteral("nicknames"));
+        QCOMPARE(settings.allKeys().size(), 1);
+        settings.setValue(settings.allKeys().front(), kept);
+        QTEST(nameOf(QStringLiteral("/dev/ttyUSB0"), 4), "shown");
+    }
+
     void followTheirDeviceToAnotherId()
     {
         {

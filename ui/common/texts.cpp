@@ -6,6 +6,7 @@
 #include "core/table/units.h"
 
 #include <QCoreApplication>
+#include <QTextDocument>
 
 #include <chrono>
 
@@ -65,6 +66,16 @@ QString agoText(LineTime at)
 QString portText(const QString &name)
 {
     return name == QStringLiteral("sim") ? Texts::tr("Simulated bus") : name;
+}
+
+QString plainToolTip(const QString &text)
+{
+    return Qt::mightBeRichText(text) ? Qt::convertFromPlainText(text, Qt::WhiteSpaceNormal) : text;
+}
+
+QString plainLabel(QString text)
+{
+    return text.replace(u'&', QStringLiteral("&&"));
 }
 
 QString lineStateText(const LineSession &line)

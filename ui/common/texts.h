@@ -13,6 +13,11 @@ QString baudText(int bitsPerSecond);    ///< "57 600 bps", "1 Mbps"
 QString agoText(LineTime at);           ///< "just now", "3 min ago"; since the monotonic clock's `at`
 QString portText(const QString &name);  ///< "Simulated bus" for "sim", else the name
 
+/// For tool tips that show what a person, a device or the system named: "<b>" in it is shown as typed, not obeyed.
+QString plainToolTip(const QString &text);
+/// The same for buttons and menus, where "&" would underline a letter.
+QString plainLabel(QString text);
+
 /// What a line does, in words: "Connected to /dev/ttyUSB0 at 1 Mbps".
 QString lineStateText(const LineSession &line);
 /// What a device does, in a few words: "Torque on", "Parked, heard 3 min ago".

@@ -104,7 +104,7 @@ void PortCombo::place(const Entry &entry, int at)
         insertItem(at, icon(simulated ? QStringLiteral("servo") : QStringLiteral("plug")), portText(entry.name),
                    entry.name);
     }
-    setItemData(at, entry.tip, Qt::ToolTipRole);
+    setItemData(at, plainToolTip(entry.tip), Qt::ToolTipRole);
 }
 
 void PortCombo::showPopup()

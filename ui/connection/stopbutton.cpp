@@ -3,6 +3,7 @@
 
 #include "core/session/stopcontrol.h"
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <QPainter>
@@ -54,7 +55,8 @@ void StopButton::update()
     const bool active = m_stop.isActive();
     setText(active ? tr("Release STOP") : tr("STOP"));
     setAccessibleName(text());
-    setToolTip(active ? tr("Torque may be turned on again. Nothing moves by itself.\n%1").arg(m_stop.report())
+    const QString release = tr("Torque may be turned on again. Nothing moves by itself.\n%1").arg(m_stop.report());
+    setToolTip(active ? plainToolTip(release)
                       : tr("Turns the torque of every device off at once (Esc)"));
     updateGeometry();
     QAbstractButton::update();

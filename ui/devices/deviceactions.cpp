@@ -7,6 +7,7 @@
 #include "ui/devices/changebauddialog.h"
 #include "ui/devices/changeiddialog.h"
 #include "ui/devices/factoryresetdialog.h"
+#include "ui/devices/nicknames.h"
 
 #include <QInputDialog>
 #include <QMessageBox>
@@ -144,6 +145,7 @@ void DeviceActions::confirm(const QString &title, const QString &text, const QSt
 {
     auto *box = new QMessageBox(QMessageBox::Warning, title, text, QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("confirmBox"));
+    box->setTextFormat(Qt::PlainText); // nicknames are in it
     QPushButton *accept = box->addButton(yes, QMessageBox::AcceptRole);
     accept->setObjectName(QStringLiteral("confirmButton"));
     connect(accept, &QPushButton::clicked, this, std::move(action));
@@ -243,7 +245,7 @@ void DeviceActions::rename()
     connect(dialog, &QInputDialog::textValueSelected, this,
         [device = QPointer<Device>(devices.front())](const QString &name) {
             if (device)
-                device->setNickname(name.trimmed().left(40));
+                device->setNickname(asNickname(name));
         });
     open(dialog);
 }

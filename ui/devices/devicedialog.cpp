@@ -35,6 +35,7 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     auto *who = new QLabel(
         tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate())), this);
     who->setWordWrap(true);
+    who->setTextFormat(Qt::PlainText);
     QFont bold = who->font();
     bold.setBold(true);
     who->setFont(bold);

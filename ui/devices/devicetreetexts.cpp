@@ -10,7 +10,8 @@ QVariant DeviceTreeModel::lineData(const LineNode &node, int role) const
     switch (role) {
     case Qt::DisplayRole: return portText(node.line->name());
     case SubtitleRole: return lineStateText(*node.line);
-    case Qt::ToolTipRole: return QStringLiteral("%1\n%2").arg(node.line->name(), lineStateText(*node.line));
+    case Qt::ToolTipRole:
+        return plainToolTip(QStringLiteral("%1\n%2").arg(node.line->name(), lineStateText(*node.line)));
     case Qt::AccessibleTextRole:
         return QStringLiteral("%1, %2").arg(portText(node.line->name()), lineStateText(*node.line));
     case DimmedRole: return node.line->state() != BusThread::State::Open;
@@ -69,7 +70,7 @@ QVariant DeviceTreeModel::deviceData(const Device &device, int role) const
             lines << tr("Hardware error: %1").arg(alertText(device));
         if (!device.doubt().isEmpty())
             lines << device.doubt();
-        return lines.join(QLatin1Char('\n'));
+        return plainToolTip(lines.join(QLatin1Char('\n')));
     }
     case Qt::AccessibleTextRole:
         return tr("%1, ID %2, %3").arg(device.displayName()).arg(device.id()).arg(deviceStateText(device));

@@ -8,6 +8,11 @@
 
 namespace dynascope {
 
+QString asNickname(const QString &text)
+{
+    return text.left(4 * MaximumNickname).simplified().left(MaximumNickname).trimmed();
+}
+
 Nicknames::Nicknames(const Workbench &workbench, QObject *parent)
     : QObject(parent)
     , m_workbench(workbench)
@@ -59,7 +64,7 @@ void Nicknames::recall(Device *device)
     const QString key = keyOf(*device);
     m_keys.insert(device->key(), key);
     if (device->nickname().isEmpty())
-        device->setNickname(QSettings().value(key).toString());
+        device->setNickname(asNickname(QSettings().value(key).toString()));
     connect(device, &Device::attributesChanged, this, [this, device] { keep(*device); });
 }
 

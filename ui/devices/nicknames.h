@@ -9,6 +9,10 @@
 
 namespace dynascope {
 
+inline constexpr int MaximumNickname = 40; ///< characters
+/// What somebody typed, or a settings file holds: one line, not too long.
+QString asNickname(const QString &text);
+
 /// Nicknames outlast the program: kept in the settings by where a device was and what it is. They follow it when its ID
 /// or baud rate is changed here.
 class Nicknames : public QObject

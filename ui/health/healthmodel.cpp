@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/health/healthmodel.h"
 
+#include "ui/common/texts.h"
+
 #include <algorithm>
 #include <utility>
 
@@ -143,7 +145,7 @@ QVariant HealthModel::data(const QModelIndex &index, int role) const
         if (column == HealthColumn::Bad)
             return QStringLiteral("%1, %2").arg(healthCell(row, column), verdictText(verdictOn(row.quality)));
         return healthCell(row, column);
-    case Qt::ToolTipRole: return healthHelp(row, column);
+    case Qt::ToolTipRole: return plainToolTip(healthHelp(row, column));
     case Qt::TextAlignmentRole:
         return static_cast<int>((column == HealthColumn::Name ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     case VerdictRole: return static_cast<int>(verdictOn(row.quality));

@@ -2,6 +2,7 @@
 #include "ui/plot/tracemodel.h"
 
 #include "core/table/units.h"
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <algorithm>
@@ -203,7 +204,7 @@ QVariant TraceModel::data(const QModelIndex &index, int role) const
     case Qt::AccessibleTextRole: return trace.device + QStringLiteral(" · ") + trace.field;
     case Qt::ToolTipRole: {
         const QString name = trace.device + QStringLiteral(" · ") + trace.field;
-        return trace.gone ? tr("%1\nThis device is gone.").arg(name) : name;
+        return plainToolTip(trace.gone ? tr("%1\nThis device is gone.").arg(name) : name);
     }
     case Qt::CheckStateRole: return trace.visible ? Qt::Checked : Qt::Unchecked;
     case ColorIndexRole: return trace.color;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/bitpopup.h"
 
+#include "ui/common/texts.h"
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QKeyEvent>
@@ -34,6 +36,7 @@ BitPopup::BitPopup(const Field &field, std::int64_t raw, QWidget *parent)
     layout->setContentsMargins(16, 12, 16, 12);
     layout->setSpacing(8);
     auto *title = new QLabel(field.name, this);
+    title->setTextFormat(Qt::PlainText);
     QFont bold = title->font();
     bold.setBold(true);
     title->setFont(bold);
@@ -54,7 +57,7 @@ QWidget *BitPopup::makeRow(const BitField &bits)
 {
     const std::uint32_t present = (m_raw & maskOf(bits)) >> bits.first;
     if (bits.count == 1 && bits.values.empty()) {
-        auto *box = new QCheckBox(bits.name, this);
+        auto *box = new QCheckBox(plainLabel(bits.name), this);
         box->setToolTip(tr("Bit %1").arg(bits.first));
         box->setChecked(present != 0);
         connect(box, &QCheckBox::toggled, this, [this, bits](bool on) { set(bits, on ? 1U : 0U); });
@@ -63,7 +66,9 @@ QWidget *BitPopup::makeRow(const BitField &bits)
     auto *row = new QWidget(this);
     auto *layout = new QHBoxLayout(row);
     layout->setContentsMargins(0, 0, 0, 0);
-    layout->addWidget(new QLabel(bits.name, row));
+    auto *name = new QLabel(bits.name, row);
+    name->setTextFormat(Qt::PlainText);
+    layout->addWidget(name);
     auto *list = new QComboBox(row);
     list->setAccessibleName(bits.name);
     for (const EnumValue &value : bits.values)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldwordsmodel.h"
 
+#include "ui/common/texts.h"
+
 namespace dynascope {
 
 FieldWordsModel::FieldWordsModel(QObject *parent)
@@ -42,7 +44,7 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
     }
     const auto kind = static_cast<ColumnKind>(QIdentityProxyModel::data(index, KindRole).toInt());
     if (role == Qt::ToolTipRole)
-        return toolTip(index, *field, kind);
+        return plainToolTip(toolTip(index, *field, kind));
     if (isValueKind(kind))
         return valueData(index, *field, kind, role);
     if (role == Qt::TextAlignmentRole) {
@@ -140,7 +142,8 @@ QVariant FieldWordsModel::headerData(int section, Qt::Orientation orientation, i
         case ColumnKind::Value: return tr("The number in the register");
         case ColumnKind::Physical: return tr("What the number means");
         case ColumnKind::Range: return tr("What may be written, as raw values");
-        case ColumnKind::Device: return QIdentityProxyModel::headerData(section, orientation, Qt::DisplayRole);
+        case ColumnKind::Device:
+            return plainToolTip(QIdentityProxyModel::headerData(section, orientation, Qt::DisplayRole).toString());
         default: return {};
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/goalslider.h"
 
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <QDoubleSpinBox>
@@ -27,6 +28,8 @@ GoalSlider::GoalSlider(Writer writer, QWidget *parent)
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(12);
     m_name->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("Goal Position")) + 4);
+    m_name->setTextFormat(Qt::PlainText);
+    m_note->setTextFormat(Qt::PlainText);
     m_note->setForegroundRole(QPalette::PlaceholderText);
     m_slider->setMinimumWidth(120);
     m_slider->setFocusPolicy(Qt::StrongFocus);
@@ -119,7 +122,7 @@ void GoalSlider::refresh()
     m_note->setVisible(!m_note->text().isEmpty());
     for (QWidget *part : {static_cast<QWidget *>(m_slider), static_cast<QWidget *>(m_spin)}) {
         part->setEnabled(ready);
-        part->setToolTip(ready ? tr("%1: arrows and page keys, or the wheel").arg(field.name) : why);
+        part->setToolTip(ready ? tr("%1: arrows and page keys, or the wheel").arg(field.name) : plainToolTip(why));
     }
     setEnabled(true);
     if (!ready)

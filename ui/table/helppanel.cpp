@@ -84,6 +84,8 @@ HelpPanel::HelpPanel(QWidget *parent)
     QFont bold = font();
     bold.setBold(true);
     m_name->setFont(bold);
+    for (QLabel *label : {m_name, m_facts})
+        label->setTextFormat(Qt::PlainText);
     m_facts->setForegroundRole(QPalette::PlaceholderText);
     m_facts->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_text->setObjectName(QStringLiteral("helpText"));

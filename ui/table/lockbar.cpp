@@ -22,6 +22,7 @@ LockBar::LockBar(QWidget *parent)
     sign->setPixmap(icon(QStringLiteral("lock"), IconTint::Warning).pixmap(16, 16));
     m_text->setObjectName(QStringLiteral("lockBarText"));
     m_text->setWordWrap(true);
+    m_text->setTextFormat(Qt::PlainText);
     m_button->setObjectName(QStringLiteral("lockBarButton"));
     auto *close = new QToolButton(this);
     close->setObjectName(QStringLiteral("lockBarClose"));

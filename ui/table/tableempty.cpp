@@ -21,6 +21,8 @@ TableEmpty::TableEmpty(QWidget *parent)
     m_title->setObjectName(QStringLiteral("tableEmptyTitle"));
     m_text->setObjectName(QStringLiteral("tableEmptyText"));
     m_text->setWordWrap(true);
+    for (QLabel *label : {m_title, m_text})
+        label->setTextFormat(Qt::PlainText);
     m_text->setFixedWidth(340);
     m_text->setAlignment(Qt::AlignHCenter);
     m_text->setForegroundRole(QPalette::PlaceholderText);

@@ -76,7 +76,7 @@ void Menus::fillRecent(QMenu *menu)
     menu->clear();
     for (const QString &port : Connector::recentPorts())
         connect(
-            menu->addAction(portText(port)), &QAction::triggered, this, [this, port] { emit connectRequested(port); });
+            menu->addAction(plainLabel(portText(port))), &QAction::triggered, this, [this, port] { emit connectRequested(port); });
     if (menu->isEmpty())
         menu->addAction(tr("None yet"))->setEnabled(false);
 }

@@ -80,6 +80,7 @@ bool TorqueGuard::mayClose()
                                    : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
         QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("torqueBox"));
+    box->setTextFormat(Qt::PlainText); // nicknames are in it
     box->setAttribute(Qt::WA_DeleteOnClose);
     QPushButton *leave = box->addButton(tr("Leave it on and close"), QMessageBox::AcceptRole);
     leave->setObjectName(QStringLiteral("leaveTorqueButton"));

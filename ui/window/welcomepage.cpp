@@ -2,6 +2,7 @@
 #include "ui/window/welcomepage.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 
 #include <QHBoxLayout>
 #include <QLabel>
@@ -115,8 +116,8 @@ void WelcomePage::refresh()
         const QString text =
             port.description.isEmpty() ? port.name : QStringLiteral("%1   %2").arg(port.name, port.description);
         QPushButton *button = makeButton(QStringLiteral("welcomePort"), QStringLiteral("plug"), QString());
-        button->setText(button->fontMetrics().elidedText(text, Qt::ElideMiddle, ButtonWidth - 60));
-        button->setToolTip(tr("Connect to %1").arg(text));
+        button->setText(plainLabel(button->fontMetrics().elidedText(text, Qt::ElideMiddle, ButtonWidth - 60)));
+        button->setToolTip(plainToolTip(tr("Connect to %1").arg(text)));
         connect(button, &QPushButton::clicked, this, [this, name = port.name] { emit connectRequested(name); });
         m_portButtons->addWidget(button);
     }
