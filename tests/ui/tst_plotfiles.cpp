@@ -2,6 +2,7 @@
 #include "tests/support/uitest.h"
 #include "tests/ui/plotfixture.h"
 #include "ui/plot/csvsave.h"
+#include "ui/plot/plotstate.h"
 
 #include <QBuffer>
 #include <QFileDialog>
@@ -156,6 +157,47 @@ private slots:
         closedToWriting.open(QIODevice::ReadOnly);
         QTest::ignoreMessage(QtWarningMsg, "QIODevice::write (QBuffer): ReadOnly device");
         QVERIFY(!writeCsv(closedToWriting, {}, false)); // already its first line
+    }
+
+    void csvHasAColumnPerTrace()
+    {
+        CsvColumn position{QStringLiteral("left, \"upper\" · Present Position (°)"), 0.5, 0, 1, {}};
+        CsvColumn current{QStringLiteral("#2 · Present Current (mA)"), 1, 0, 0, {}};
+        for (int i = 1; i <= 3; ++i)
+            position.samples.push_back({10s + 10ms * i, 100 * i});
+        current.samples = {{10s + 20ms, -3}, {10s + 25ms, -4}};
+        QBuffer buffer;
+        buffer.open(QIODevice::WriteOnly);
+        QVERIFY(writeCsv(buffer, std::vector{position, current}, false));
+        QCOMPARE(QString::fromUtf8(buffer.data()),
+            QStringLiteral("Time (s),\"left, \"\"upper\"\" · Present Position (°)\",#2 · Present Current (mA)\n"
+                           "0.000000,50.0,\n"
+                           "0.010000,100.0,-3\n"
+                           "0.015000,,-4\n"
+                           "0.020000,150.0,\n"));
+    }
+
+    void unwritableFileIsSaid()
+    {
+        const auto result = saveCsv(QStringLiteral("/nowhere/at all.csv"), {}, false);
+        QVERIFY(!result);
+        QVERIFY(result.error().text.contains(QStringLiteral("at all.csv")));
+    }
+
+    void stateSurvivesTheTrip()
+    {
+        PlotState state;
+        state.spanSeconds = 60;
+        state.autoscale = false;
+        state.panels = {{{QStringLiteral("/dev/ttyUSB0"), 1020, 3, QStringLiteral("Present Position"), 2, false}}, {}};
+        const auto back = PlotState::fromBytes(state.toBytes());
+        QVERIFY(back);
+        QCOMPARE(back->spanSeconds, 60);
+        QCOMPARE(back->autoscale, false);
+        QVERIFY(back->panels == state.panels);
+        QVERIFY(!PlotState::fromBytes({}));
+        QVERIFY(!PlotState::fromBytes("{\"panels\":"));
+        QVERIFY(PlotState::fromBytes("{\"panels\":[[5,{\"id\":\"x\"}],7]}"));
     }
 
     void tracesComeBackWithTheirDevices()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/uitest.h"
+#include "tests/ui/smalldevice.h"
 #include "tests/ui/tablefixture.h"
 #include "ui/table/fieldfiltermodel.h"
 #include "ui/table/fieldtablemodel.h"
@@ -10,98 +11,6 @@
 #include <QSignalSpy>
 
 using namespace dynascope;
-
-namespace {
-
-QString markOf(const QModelIndex &cell)
-{
-    switch (static_cast<FieldState>(cell.data(StateRole).toInt())) {
-    case FieldState::Unknown: return QStringLiteral("?");
-    case FieldState::Stale: return QStringLiteral("~");
-    case FieldState::Failed: return QStringLiteral("!");
-    default: return cell.data(DiffersRole).toBool() ? QStringLiteral("#") : QString();
-    }
-}
-
-/// Each row as "name | cell | cell"; groups as "[title]". States as a mark, a write as "old>new".
-QStringList printed(const QAbstractItemModel &model)
-{
-    QStringList lines;
-    for (int group = 0; group < model.rowCount(); ++group) {
-        const QModelIndex parent = model.index(group, 0);
-        lines << QStringLiteral("[%1]").arg(parent.data().toString());
-        for (int row = 0; row < model.rowCount(parent); ++row) {
-            QStringList cells;
-            for (int column = 0; column < model.columnCount(); ++column) {
-                const QModelIndex cell = model.index(row, column, parent);
-                if (kindAt(cell) == ColumnKind::Plot) {
-                    if (cell.data(Qt::CheckStateRole).toInt() != Qt::Unchecked)
-                        cells.back() += QStringLiteral(" (plot)");
-                    continue;
-                }
-                QString text = cell.data().toString();
-                if (isValueKind(kindAt(cell)) && kindAt(cell) != ColumnKind::Physical)
-                    text += markOf(cell);
-                if (const QString next = cell.data(PendingTextRole).toString(); !next.isEmpty())
-                    text += u'>' + next;
-                cells << text;
-            }
-            lines << cells.join(QStringLiteral(" | "));
-        }
-    }
-    return lines;
-}
-
-Field makeField(int address, int size, const QString &name, Area area, bool writable, Unit unit, double scale)
-{
-    Field field;
-    field.address = static_cast<std::uint16_t>(address);
-    field.size = static_cast<std::uint8_t>(size);
-    field.name = name;
-    field.area = area;
-    field.access = writable ? Access::ReadWrite : Access::Read;
-    field.unit = unit;
-    field.scale = scale;
-    field.isSigned = size == 4;
-    return field;
-}
-
-ControlTablePtr smallTable()
-{
-    ControlTable::Description table;
-    table.modelNumber = 1;
-    table.model = QStringLiteral("Small");
-    Field id = makeField(7, 1, QStringLiteral("ID"), Area::Eeprom, true, Unit::None, 1);
-    id.initial = 1;
-    id.minimum.number = 0;
-    id.maximum.number = 252;
-    Field mode = makeField(11, 1, QStringLiteral("Operating Mode"), Area::Eeprom, true, Unit::None, 1);
-    mode.initial = 3;
-    mode.values = {{1, QStringLiteral("Velocity")}, {3, QStringLiteral("Position")}};
-    Field limit = makeField(48, 4, QStringLiteral("Max Position Limit"), Area::Eeprom, true, Unit::Pulse, 1);
-    limit.initial = 4095;
-    limit.help = QStringLiteral("How far the joint may turn.");
-    Field torque = makeField(64, 1, QStringLiteral("Torque Enable"), Area::Ram, true, Unit::None, 1);
-    torque.values = {{0, QStringLiteral("Off")}, {1, QStringLiteral("On")}};
-    torque.initial = 0;
-    Field goal = makeField(116, 4, QStringLiteral("Goal Position"), Area::Ram, true, Unit::Pulse, 1);
-    goal.minimum.number = 0;
-    goal.maximum.reg = QStringLiteral("Max Position Limit");
-    Field volt = makeField(144, 2, QStringLiteral("Present Input Voltage"), Area::Ram, false, Unit::Volt, 0.1);
-    Field address = makeField(168, 2, QStringLiteral("Indirect Address 1"), Area::Ram, true, Unit::None, 1);
-    Field data = makeField(224, 1, QStringLiteral("Indirect Data 1"), Area::Ram, true, Unit::None, 1);
-    table.fields = {id, mode, limit, torque, goal, volt, address, data};
-    return std::make_shared<ControlTable>(table);
-}
-
-std::unique_ptr<Device> smallDevice(int id)
-{
-    Found found;
-    found.id = static_cast<std::uint8_t>(id);
-    return std::make_unique<Device>(static_cast<DeviceKey>(id), nullptr, smallTable(), found);
-}
-
-} // namespace
 
 class TestTableModel : public QObject
 {
@@ -344,72 +253,6 @@ private slots:
         const std::unique_ptr<QMimeData> mime(model.mimeData({tick, tick.siblingAtColumn(0)}));
         QVERIFY(mime && mime->hasFormat(QStringLiteral("application/x-dynascope-watch")));
         QVERIFY(!model.mimeData({model.index(0, 0)}));
-    }
-
-    void filters_data()
-    {
-        QTest::addColumn<QString>("search");
-        QTest::addColumn<QString>("switches"); // of c(hanged) w(ritable) p(lotted)
-        QTest::addColumn<QStringList>("left");
-        const auto row = [](const char *name, const QString &search, const QString &switches, const QString &left) {
-            QTest::newRow(name) << search << switches << left.split(u'/', Qt::SkipEmptyParts);
-        };
-        row("name", QStringLiteral("position"), {},
-            QStringLiteral("[EEPROM]/Max Position Limit/[RAM]/Goal Position"));
-        row("words in any order", QStringLiteral("limit max"), {}, QStringLiteral("[EEPROM]/Max Position Limit"));
-        row("help", QStringLiteral("joint"), {}, QStringLiteral("[EEPROM]/Max Position Limit"));
-        row("address", QStringLiteral("116"), {}, QStringLiteral("[RAM]/Goal Position"));
-        row("address in hex", QStringLiteral("0x90"), {}, QStringLiteral("[RAM]/Present Input Voltage"));
-        row("nothing", QStringLiteral("elephant"), {}, {});
-        row("changed", {}, QStringLiteral("c"), QStringLiteral("[EEPROM]/ID"));
-        row("plotted", {}, QStringLiteral("p"), QStringLiteral("[RAM]/Present Input Voltage"));
-        row("writable and a search", QStringLiteral("p"), QStringLiteral("w"),
-            QStringLiteral("[EEPROM]/Operating Mode/Max Position Limit/[RAM]/Goal Position"));
-        row("plotted and writable", {}, QStringLiteral("pw"), {});
-    }
-
-    void filters()
-    {
-        QFETCH(QString, search);
-        QFETCH(QString, switches);
-        QFETCH(QStringList, left);
-        TableFixture fixture;
-        const auto device = smallDevice(3);
-        TableFixture::set(device.get(), QStringLiteral("ID"), 3);
-        TableFixture::set(device.get(), QStringLiteral("Operating Mode"), 3);
-        fixture.watched = {{3, 5}};
-        FieldTableModel model(fixture.actions());
-        FieldWordsModel words;
-        FieldFilterModel filter;
-        words.setSourceModel(&model);
-        filter.setSourceModel(&words);
-        const QAbstractItemModelTester tester(&filter, QAbstractItemModelTester::FailureReportingMode::QtTest);
-        model.setDevices({device.get()});
-        filter.setSearch(search);
-        filter.setOnlyChanged(switches.contains(u'c'));
-        filter.setOnlyWritable(switches.contains(u'w'));
-        filter.setOnlyWatched(switches.contains(u'p'));
-        QStringList names;
-        for (const QString &line : printed(filter))
-            names << line.section(QStringLiteral(" | "), 0, 0).remove(QStringLiteral(" (plot)"));
-        QCOMPARE(names, left);
-    }
-
-    void aFilterFollowsTheValues()
-    {
-        TableFixture fixture;
-        const auto device = smallDevice(1);
-        TableFixture::set(device.get(), QStringLiteral("Operating Mode"), 3);
-        FieldTableModel model(fixture.actions());
-        FieldFilterModel filter;
-        filter.setSourceModel(&model);
-        model.setDevices({device.get()});
-        filter.setOnlyChanged(true);
-        QCOMPARE(filter.rowCount(), 0);
-        TableFixture::set(device.get(), QStringLiteral("Operating Mode"), 1);
-        QTRY_COMPARE(filter.rowCount(), 1);
-        TableFixture::set(device.get(), QStringLiteral("Operating Mode"), 3);
-        QTRY_COMPARE(filter.rowCount(), 0);
     }
 };
 
