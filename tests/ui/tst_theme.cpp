@@ -3,6 +3,9 @@
 #include "ui/common/watchmime.h"
 
 #include <QFontMetricsF>
+#include <QImage>
+#include <QPainter>
+#include <QStyleOption>
 
 using namespace dynascope;
 
@@ -75,6 +78,24 @@ private slots:
             }
             QCOMPARE(traceColor(24, palette), seen.first());
         }
+    }
+
+    void arrowOfASelectedRowIsReadable()
+    {
+        QStyleOption option;
+        option.rect = QRect(0, 0, 20, 20);
+        option.state = QStyle::State_Enabled | QStyle::State_Children | QStyle::State_Selected;
+        option.palette = dynascope::palette(ColorScheme::Light);
+        const QColor ground = option.palette.color(QPalette::Highlight);
+        QImage image(option.rect.size(), QImage::Format_RGB32);
+        image.fill(ground);
+        QPainter painter(&image);
+        QApplication::style()->drawPrimitive(QStyle::PE_IndicatorBranch, &option, &painter);
+        painter.end();
+        double best = 0;
+        for (int at = 0; at < image.width() * image.height(); ++at)
+            best = std::max(best, contrastRatio(image.pixelColor(at % image.width(), at / image.width()), ground));
+        QVERIFY2(best >= 3, qPrintable(QString::number(best)));
     }
 
     void schemesDiffer()

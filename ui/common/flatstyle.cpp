@@ -142,6 +142,13 @@ void FlatStyle::drawPrimitive(PrimitiveElement element, const QStyleOption *opti
     case PE_IndicatorItemViewItemCheck: drawCheckBox(*option, painter); return;
     case PE_IndicatorRadioButton: drawRadioButton(*option, painter); return;
     case PE_FrameStatusBarItem: return;
+    case PE_IndicatorBranch: {
+        QStyleOption arrow = *option;
+        if (arrow.state & State_Selected) // it stands on the highlight, as the text does
+            arrow.palette.setColor(QPalette::WindowText, option->palette.color(QPalette::HighlightedText));
+        QProxyStyle::drawPrimitive(element, &arrow, painter, widget);
+        return;
+    }
     case PE_PanelScrollAreaCorner: painter->fillRect(option->rect, option->palette.color(QPalette::Base)); return;
     case PE_IndicatorToolBarSeparator: {
         const QRect &rect = option->rect;
