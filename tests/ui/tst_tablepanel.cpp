@@ -182,6 +182,30 @@ private slots:
         QVERIFY(search->text().isEmpty());
     }
 
+    void searchEndsOnASelectedRow()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        window.panel.setDevices({fixture.add(3)});
+        window.go(QStringLiteral("Max Voltage Limit"));
+        auto *search = window.find<QLineEdit>("tableSearch");
+        QTest::keyClicks(search, QStringLiteral("velo"));
+        QTest::keyClick(search, Qt::Key_Return);
+        const QModelIndex current = window.view->currentIndex();
+        QVERIFY(current.isValid() && window.view->selectionModel()->isSelected(current));
+    }
+
+    void headingsAreNotSelected()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        window.panel.setDevices({fixture.add(3)});
+        window.view->selectAll();
+        const QItemSelectionModel *selection = window.view->selectionModel();
+        QVERIFY(selection->isSelected(window.cell(QStringLiteral("ID"), ColumnKind::Name)));
+        QVERIFY(!selection->isSelected(window.view->model()->index(0, 0)));
+    }
+
     void saysWhenThereIsNothing()
     {
         TableFixture fixture;

@@ -293,8 +293,8 @@ QVariant FieldTableModel::headerData(int section, Qt::Orientation orientation, i
 Qt::ItemFlags FieldTableModel::flags(const QModelIndex &index) const
 {
     const int field = fieldOf(index);
-    if (field < 0)
-        return index.isValid() ? Qt::ItemIsEnabled | Qt::ItemIsSelectable : Qt::NoItemFlags;
+    if (field < 0) // a heading: nothing to be done with it
+        return index.isValid() ? Qt::ItemIsEnabled : Qt::NoItemFlags;
     Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsDragEnabled | Qt::ItemNeverHasChildren;
     const ColumnKind kind = columnAt(index.column()).kind;
     if (kind == ColumnKind::Plot)

@@ -120,8 +120,10 @@ void TablePanel::connectParts()
     connect(m_tools, &TableTools::filterChanged, this, &TablePanel::updateGroups);
     connect(m_tools, &TableTools::leaveSearch, this, [this] {
         m_view->setFocus();
-        if (!valueCell().isValid() && m_filter->rowCount() > 0)
-            m_view->setCurrentIndex(m_filter->index(0, 0, m_filter->index(0, 0)));
+        // What was current may have been filtered away: its successor is current, but not selected.
+        const bool isField = valueCell().isValid();
+        if (isField || m_filter->rowCount() > 0)
+            m_view->setCurrentIndex(isField ? m_view->currentIndex() : m_filter->index(0, 0, m_filter->index(0, 0)));
     });
     connect(m_tools, &TableTools::editAllToggled, this, [this](bool on) {
         m_model->setEditsAll(on);
