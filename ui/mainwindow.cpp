@@ -7,6 +7,7 @@
 #include "core/session/stopcontrol.h"
 #include "ui/common/icons.h"
 #include "ui/common/messagebar.h"
+#include "ui/common/present.h"
 #include "ui/common/stopkey.h"
 #include "ui/connection/connectionbar.h"
 #include "ui/connection/connector.h"
@@ -73,6 +74,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     new Nicknames(workbench, this);
 
     auto *key = new StopKey(this);
+    key->setButton(m_bar->stopButton());
     qApp->installEventFilter(key);
     connect(key, &StopKey::pressed, &m_workbench.stop, &StopControl::press);
     new Outcomes(workbench, *m_messages, *m_stopBar, [this](const Device &device) {
@@ -274,6 +276,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
         return;
     }
     saveParts();
+    closeDialogs(*this);
     QMainWindow::closeEvent(event);
 }
 

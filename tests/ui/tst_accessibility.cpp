@@ -130,9 +130,9 @@ private slots:
         QFETCH(QByteArray, action);
         QVERIFY(connectNow());
         this->action(action.constData())->trigger();
-        QTRY_VERIFY(QApplication::activeModalWidget() || QApplication::activePopupWidget());
+        QTRY_VERIFY(qobject_cast<QDialog *>(QApplication::activeWindow()) || QApplication::activePopupWidget());
         QWidget *popup = QApplication::activePopupWidget();
-        const QWidget *front = popup ? popup : QApplication::activeModalWidget();
+        const QWidget *front = popup ? popup : QApplication::activeWindow();
         QCOMPARE(nameless(*front), QString());
     }
 

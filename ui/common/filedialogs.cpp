@@ -1,22 +1,75 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/filedialogs.h"
 
+#include "ui/common/present.h"
+
 #include <QCoreApplication>
+#include <QDir>
 #include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
 
 namespace dynascope {
 
-QFileDialog *makeSaveDialog(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested)
+namespace {
+
+class SaveDialog final : public QFileDialog
 {
-    auto *dialog = new QFileDialog(parent, title);
-    dialog->setObjectName(QStringLiteral("saveDialog"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
+public:
+    using QFileDialog::QFileDialog;
+
+    void accept() override
+    {
+        const QString path = selectedFiles().value(0);
+        if (!QFileInfo(path).isFile() || path == m_agreed)
+            return QFileDialog::accept();
+        askToReplace(path);
+    }
+
+private:
+    void askToReplace(const QString &path)
+    {
+        const QString name = QStringLiteral("replaceBox");
+        if (raiseOpen(*this, name, path))
+            return;
+        auto *box = new QMessageBox(QMessageBox::Warning, windowTitle(),
+                                    QCoreApplication::translate("FileDialogs", "%1 is there already. Replace it?")
+                                        .arg(QDir::toNativeSeparators(path)),
+                                    QMessageBox::Cancel, this);
+        box->setObjectName(name);
+        box->setTextFormat(Qt::PlainText);
+        QPushButton *replace =
+            box->addButton(QCoreApplication::translate("FileDialogs", "Replace"), QMessageBox::AcceptRole);
+        replace->setObjectName(QStringLiteral("replaceButton"));
+        connect(replace, &QPushButton::clicked, this, [this, path] {
+            m_agreed = path; // asked for another name meanwhile, it asks again
+            accept();
+        });
+        present(*box, path);
+    }
+
+    QString m_agreed; ///< a file that may be replaced
+};
+
+} // namespace
+
+void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
+                    std::function<void(const QString &path)> save)
+{
+    const QString name = QStringLiteral("saveDialog");
+    if (raiseOpen(*parent, name, suffix))
+        return;
+    auto *dialog = new SaveDialog(parent, title);
+    dialog->setObjectName(name);
     dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setOption(QFileDialog::DontConfirmOverwrite);
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setDefaultSuffix(suffix);
     dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (*.%2)").arg(suffix.toUpper(), suffix));
     dialog->selectFile(suggested);
-    return dialog;
+    QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(save));
+    present(*dialog, suffix);
 }
 
 } // namespace dynascope

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-class QFileDialog;
+#include <functional>
+
 class QString;
 class QWidget;
 
 namespace dynascope {
 
-/// Asks where to save; to be opened with open(), deletes itself when closed. Every file dialog is made here: the
-/// system's own would be a window of another toolkit, whose keys no filter of ours sees, so that Esc would not be STOP
-/// while it is open. `suffix` is without a dot: "csv".
-QFileDialog *makeSaveDialog(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested);
+/// Asks where to save; `save` gets the path, unless it is closed otherwise. One for each suffix is open at a time: asking
+/// again brings it to the front. Every file dialog is made here: the system's own would be a window of another toolkit,
+/// whose keys no filter of ours sees, so that Esc would not be STOP while it is open, and what Qt's asks before it
+/// replaces a file would be modal. `suffix` is without a dot: "csv".
+void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
+                    std::function<void(const QString &path)> save);
 
 } // namespace dynascope

@@ -5,6 +5,7 @@ target_sources(dynascope_ui PRIVATE
     common/flatstyle.cpp common/flatstyle.h
     common/icons.cpp common/icons.h
     common/messagebar.cpp common/messagebar.h
+    common/present.cpp common/present.h
     common/stopkey.cpp common/stopkey.h
     common/texts.cpp common/texts.h
     common/theme.cpp common/theme.h

@@ -42,6 +42,7 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
     , m_progressText(new QLabel(this))
     , m_cancel(new QToolButton(this))
     , m_options(new ScanOptions(this))
+    , m_stop(new StopButton(workbench.stop, this))
 {
     setObjectName(QStringLiteral("connectionBar"));
     setMovable(false);
@@ -153,7 +154,7 @@ void ConnectionBar::addAll()
     scan->addWidget(m_scanMore);
     layout->addLayout(scan);
     layout->addWidget(m_status, 2);
-    layout->addWidget(new StopButton(m_workbench.stop, content));
+    layout->addWidget(m_stop);
     for (QWidget *widget : {static_cast<QWidget *>(m_port), static_cast<QWidget *>(m_baud),
                             static_cast<QWidget *>(m_connect), static_cast<QWidget *>(m_disconnect),
                             static_cast<QWidget *>(m_scan), static_cast<QWidget *>(m_scanMore)})
@@ -172,6 +173,11 @@ void ConnectionBar::setPort(const QString &port, int baudRate)
     m_port->setPort(port);
     if (baudRate > 0)
         m_baud->setBaudRate(baudRate);
+}
+
+QWidget *ConnectionBar::stopButton() const
+{
+    return m_stop;
 }
 
 void ConnectionBar::choosePort()

@@ -19,6 +19,7 @@ class ElidedLabel;
 class LineSession;
 class PortCombo;
 class ScanOptions;
+class StopButton;
 
 /// Port, baud, connect, scan, the state in words; at the right STOP, always.
 class ConnectionBar : public QToolBar
@@ -32,6 +33,7 @@ public:
     LineSession *currentLine() const;
     void setPort(const QString &port, int baudRate);
     void choosePort(); ///< opens the list
+    QWidget *stopButton() const;
 
 public slots:
     void toggleConnection(); ///< a broken line is opened again
@@ -69,6 +71,7 @@ private:
     QLabel *m_progressText;
     QToolButton *m_cancel;
     ScanOptions *m_options;
+    StopButton *m_stop;
     LineSession *m_shown = nullptr; ///< whose baud rate the combo shows; compared only
     int m_shownBaud = 0;
 };

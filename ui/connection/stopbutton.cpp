@@ -38,7 +38,7 @@ StopButton::StopButton(StopControl &stop, QWidget *parent)
     setCursor(Qt::PointingHandCursor);
     // Down, not up: the way of a real emergency stop. The click that follows must not release what was just pressed.
     connect(this, &QAbstractButton::pressed, this, [this] {
-        m_stopsNow = !m_stop.isActive();
+        m_stopsNow = !m_stop.isActive() || m_isSecond;
         if (m_stopsNow)
             m_stop.press();
     });
@@ -68,6 +68,14 @@ QSize StopButton::sizeHint() const
     const QFontMetrics metrics(boldened(font()));
     const int text = qMax(metrics.horizontalAdvance(tr("Release STOP")), metrics.horizontalAdvance(tr("STOP")));
     return {text + IconSize + Gap + 2 * Padding, Height};
+}
+
+/// Who hits it twice in haste wants to stop.
+void StopButton::mouseDoubleClickEvent(QMouseEvent *event)
+{
+    m_isSecond = true;
+    mousePressEvent(event);
+    m_isSecond = false;
 }
 
 void StopButton::paintEvent(QPaintEvent *)

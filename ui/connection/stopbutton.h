@@ -20,11 +20,13 @@ public:
 
 protected:
     void paintEvent(QPaintEvent *event) override;
+    void mouseDoubleClickEvent(QMouseEvent *event) override;
 
 private:
     void update();
 
     StopControl &m_stop;
+    bool m_isSecond = false; ///< the press under way is the second of a double click
     bool m_stopsNow = false; ///< the press under way is the one that stopped
 };
 

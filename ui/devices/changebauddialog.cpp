@@ -7,6 +7,7 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QLabel>
+#include <QSignalBlocker>
 
 #include <algorithm>
 
@@ -16,20 +17,35 @@ ChangeBaudDialog::ChangeBaudDialog(Device &device, Commands &commands, QWidget *
     : DeviceDialog(device, tr("Change baud rate"), tr("Change baud rate"), parent)
     , m_commands(commands)
     , m_baud(new QComboBox(this))
+    , m_present(new QLabel(this))
 {
     setObjectName(QStringLiteral("changeBaudDialog"));
     m_baud->setObjectName(QStringLiteral("newBaud"));
     m_baud->setAccessibleName(tr("New baud rate"));
-    for (const BaudCode &code : device.table().description().baudCodes) {
-        if (code.rate != device.baudRate())
-            m_baud->addItem(baudText(code.rate), code.rate);
-    }
-    m_baud->setCurrentIndex(mostLikely(device));
-    form()->addRow(tr("Present baud rate"), new QLabel(baudText(device.baudRate()), this));
+    fill();
+    form()->addRow(tr("Present baud rate"), m_present);
     form()->addRow(tr("New baud rate"), m_baud);
     beginWith(m_baud);
     connect(m_baud, &QComboBox::currentIndexChanged, this, [this] { check(); });
     ChangeBaudDialog::check();
+}
+
+/// Again where the device has moved meanwhile: what was chosen stays, if it still can be.
+void ChangeBaudDialog::fill()
+{
+    if (m_filledFor == device()->baudRate())
+        return;
+    m_filledFor = device()->baudRate();
+    const QSignalBlocker blocker(m_baud);
+    const int chosen = m_baud->currentData().toInt();
+    m_baud->clear();
+    for (const BaudCode &code : device()->table().description().baudCodes) {
+        if (code.rate != m_filledFor)
+            m_baud->addItem(baudText(code.rate), code.rate);
+    }
+    const int again = m_baud->findData(chosen);
+    m_baud->setCurrentIndex(again >= 0 ? again : mostLikely(*device()));
+    m_present->setText(baudText(m_filledFor));
 }
 
 /// To where the line works, else to what is new from the factory, else anywhere: but not to where its ID is taken.
@@ -59,6 +75,7 @@ void ChangeBaudDialog::check()
 {
     if (!device())
         return;
+    fill();
     const int baud = m_baud->currentData().toInt();
     const LineSession *line = device()->line();
     const Device *other = line ? line->deviceAt(device()->id(), baud) : nullptr;

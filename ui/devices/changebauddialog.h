@@ -4,6 +4,7 @@
 #include "ui/devices/devicedialog.h"
 
 class QComboBox;
+class QLabel;
 
 namespace dynascope {
 
@@ -25,9 +26,12 @@ protected:
 private:
     bool isAlone() const; ///< nobody else at the line's working baud rate
     int mostLikely(const Device &device) const;
+    void fill(); ///< with every rate but its own
 
     Commands &m_commands;
     QComboBox *m_baud;
+    QLabel *m_present;
+    int m_filledFor = 0; ///< its rate when the list was made
 };
 
 } // namespace dynascope

@@ -33,6 +33,9 @@ ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *pare
     : DeviceDialog(device, tr("Change ID"), tr("Change ID"), parent)
     , m_commands(commands)
     , m_id(new QSpinBox(this))
+    , m_present(new QLabel(this))
+    , m_takenAt(new QLabel(this))
+    , m_taken(new QLabel(this))
 {
     setObjectName(QStringLiteral("changeIdDialog"));
     m_id->setObjectName(QStringLiteral("newId"));
@@ -40,13 +43,11 @@ ChangeIdDialog::ChangeIdDialog(Device &device, Commands &commands, QWidget *pare
     m_id->setRange(0, LargestId);
     m_id->setValue(firstFree());
     m_id->selectAll();
-    form()->addRow(tr("Present ID"), new QLabel(QString::number(device.id()), this));
+    form()->addRow(tr("Present ID"), m_present);
     form()->addRow(tr("New ID"), m_id);
-    const QStringList taken = takenIds(device);
-    auto *list = new QLabel(taken.isEmpty() ? tr("none") : taken.join(QStringLiteral(", ")), this);
-    list->setObjectName(QStringLiteral("takenIds"));
-    list->setWordWrap(true);
-    form()->addRow(tr("Taken at %1").arg(baudText(device.baudRate())), list);
+    m_taken->setObjectName(QStringLiteral("takenIds"));
+    m_taken->setWordWrap(true);
+    form()->addRow(m_takenAt, m_taken);
     beginWith(m_id);
     connect(m_id, &QSpinBox::valueChanged, this, [this] { check(); });
     ChangeIdDialog::check();
@@ -70,10 +71,20 @@ int ChangeIdDialog::firstFree() const
     return fallback;
 }
 
+/// Where it is, and who else is there: it and others may move while the dialog is open.
+void ChangeIdDialog::showPlace()
+{
+    m_present->setText(QString::number(device()->id()));
+    const QStringList taken = takenIds(*device());
+    m_taken->setText(taken.isEmpty() ? tr("none") : taken.join(QStringLiteral(", ")));
+    m_takenAt->setText(tr("Taken at %1").arg(baudText(device()->baudRate())));
+}
+
 void ChangeIdDialog::check()
 {
     if (!device())
         return;
+    showPlace();
     const int id = m_id->value();
     const Device *other = holderOf(*device(), id).device;
     if (id == device()->id())

@@ -3,6 +3,7 @@
 
 #include "ui/devices/devicedialog.h"
 
+class QLabel;
 class QSpinBox;
 
 namespace dynascope {
@@ -24,9 +25,13 @@ protected:
 
 private:
     int firstFree() const;
+    void showPlace();
 
     Commands &m_commands;
     QSpinBox *m_id;
+    QLabel *m_present;
+    QLabel *m_takenAt;
+    QLabel *m_taken;
 };
 
 } // namespace dynascope

@@ -3,6 +3,7 @@
 
 #include "core/session/commands.h"
 #include "ui/common/icons.h"
+#include "ui/common/present.h"
 #include "ui/common/texts.h"
 #include "ui/devices/changebauddialog.h"
 #include "ui/devices/changeiddialog.h"
@@ -17,6 +18,32 @@
 #include <algorithm>
 
 namespace dynascope {
+
+namespace {
+
+constexpr std::size_t MostNamed = 6;
+
+QString subjectOf(const std::vector<Device *> &devices)
+{
+    QStringList keys;
+    for (const Device *device : devices)
+        keys << QString::number(device->key());
+    return keys.join(u' ');
+}
+
+QString namesOf(const std::vector<Device *> &devices)
+{
+    QStringList names;
+    for (const Device *device : devices) {
+        if (names.size() < static_cast<qsizetype>(MostNamed))
+            names << device->displayName();
+    }
+    if (devices.size() > MostNamed)
+        names << DeviceActions::tr("%1 more").arg(devices.size() - MostNamed);
+    return names.join(QStringLiteral(", "));
+}
+
+} // namespace
 
 DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     : QObject(window)
@@ -87,8 +114,13 @@ void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSessi
 
 std::vector<Device *> DeviceActions::devices() const
 {
+    return living(m_selected);
+}
+
+std::vector<Device *> DeviceActions::living(const std::vector<DeviceKey> &keys) const
+{
     std::vector<Device *> devices;
-    for (const DeviceKey key : m_selected) {
+    for (const DeviceKey key : keys) {
         if (Device *device = m_workbench.session.device(key))
             devices.push_back(device);
     }
@@ -135,21 +167,33 @@ void DeviceActions::update()
     m_forget->setEnabled(!this->devices().empty());
 }
 
-void DeviceActions::open(QDialog *dialog)
+template <typename Dialog>
+void DeviceActions::open(Device &device, const QString &name)
 {
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->open();
+    const QString subject = subjectOf({&device});
+    if (!raiseOpen(*m_window, name, subject))
+        present(*new Dialog(device, m_workbench.commands, m_window), subject);
 }
 
-void DeviceActions::confirm(const QString &title, const QString &text, const QString &yes, std::function<void()> action)
+void DeviceActions::confirm(const QString &title, const QString &text, const std::vector<Device *> &devices,
+                            std::function<void(const std::vector<Device *> &)> action)
 {
+    const QString name = QStringLiteral("confirmBox");
+    const QString subject = title + u' ' + subjectOf(devices);
+    if (raiseOpen(*m_window, name, subject))
+        return;
     auto *box = new QMessageBox(QMessageBox::Warning, title, text, QMessageBox::Cancel, m_window);
-    box->setObjectName(QStringLiteral("confirmBox"));
+    box->setObjectName(name);
     box->setTextFormat(Qt::PlainText); // nicknames are in it
-    QPushButton *accept = box->addButton(yes, QMessageBox::AcceptRole);
+    QPushButton *accept = box->addButton(title, QMessageBox::AcceptRole);
     accept->setObjectName(QStringLiteral("confirmButton"));
-    connect(accept, &QPushButton::clicked, this, std::move(action));
-    open(box);
+    std::vector<DeviceKey> keys;
+    for (const Device *device : devices) {
+        keys.push_back(device->key());
+        connect(device, &QObject::destroyed, box, &QDialog::reject);
+    }
+    connect(accept, &QPushButton::clicked, this, [this, keys, action = std::move(action)] { action(living(keys)); });
+    present(*box, subject);
 }
 
 void DeviceActions::identify()
@@ -168,15 +212,9 @@ void DeviceActions::torqueOn()
         return turnTorqueOn(devices);
     confirm(tr("Torque on"),
             tr("Turn the torque of %1 devices on? Each holds its position, and may move to a goal it was given before.")
-                .arg(devices.size()),
-            tr("Torque on"), [this, keys = m_selected] {
-                std::vector<Device *> present;
-                for (const DeviceKey key : keys) {
-                    if (Device *device = m_workbench.session.device(key))
-                        present.push_back(device);
-                }
-                turnTorqueOn(present);
-            });
+                    .arg(devices.size())
+                + QStringLiteral("\n\n") + namesOf(devices),
+            devices, [this](const std::vector<Device *> &present) { turnTorqueOn(present); });
 }
 
 void DeviceActions::turnTorqueOn(const std::vector<Device *> &devices)
@@ -213,22 +251,21 @@ void DeviceActions::readAll()
 void DeviceActions::reboot()
 {
     const std::vector<Device *> devices = reachable();
-    const auto run = [this, keys = m_selected] {
-        for (const DeviceKey key : keys) {
-            if (Device *device = m_workbench.session.device(key))
-                m_workbench.commands.reboot(*device);
-        }
+    const auto run = [this](const std::vector<Device *> &present) {
+        for (Device *device : present)
+            m_workbench.commands.reboot(*device);
     };
     const auto held = std::ranges::count_if(devices, &Device::isTorqueOn);
     if (held == 0)
-        return run();
+        return run(devices);
     confirm(tr("Reboot"),
         devices.size() == 1
             ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.")
                   .arg(devices.front()->displayName())
             : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.")
-                  .arg(held),
-        tr("Reboot"), run);
+                      .arg(held)
+                  + QStringLiteral("\n\n") + namesOf(devices),
+        devices, run);
 }
 
 void DeviceActions::rename()
@@ -236,8 +273,11 @@ void DeviceActions::rename()
     const std::vector<Device *> devices = this->devices();
     if (devices.size() != 1)
         return;
+    const QString dialogName = QStringLiteral("nicknameDialog");
+    if (raiseOpen(*m_window, dialogName, subjectOf(devices)))
+        return;
     auto *dialog = new QInputDialog(m_window);
-    dialog->setObjectName(QStringLiteral("nicknameDialog"));
+    dialog->setObjectName(dialogName);
     dialog->setWindowTitle(tr("Nickname"));
     dialog->setLabelText(tr("Nickname of %1, ID %2:").arg(devices.front()->model()).arg(devices.front()->id()));
     dialog->setMinimumWidth(360);
@@ -247,7 +287,8 @@ void DeviceActions::rename()
             if (device)
                 device->setNickname(asNickname(name));
         });
-    open(dialog);
+    connect(devices.front(), &QObject::destroyed, dialog, &QDialog::reject);
+    present(*dialog, subjectOf(devices));
 }
 
 void DeviceActions::changeId()
@@ -258,7 +299,7 @@ void DeviceActions::changeId()
 void DeviceActions::openChangeId(Device *device)
 {
     if (device)
-        open(new ChangeIdDialog(*device, m_workbench.commands, m_window));
+        open<ChangeIdDialog>(*device, QStringLiteral("changeIdDialog"));
 }
 
 void DeviceActions::changeBaud()
@@ -269,7 +310,7 @@ void DeviceActions::changeBaud()
 void DeviceActions::openChangeBaud(Device *device)
 {
     if (device)
-        open(new ChangeBaudDialog(*device, m_workbench.commands, m_window));
+        open<ChangeBaudDialog>(*device, QStringLiteral("changeBaudDialog"));
 }
 
 void DeviceActions::workAtBaud()
@@ -288,7 +329,7 @@ void DeviceActions::clearMultiTurn()
 void DeviceActions::factoryReset()
 {
     if (Device *device = single())
-        open(new FactoryResetDialog(*device, m_workbench.commands, m_window));
+        open<FactoryResetDialog>(*device, QStringLiteral("factoryResetDialog"));
 }
 
 void DeviceActions::forget()

@@ -9,8 +9,6 @@
 
 #include <set>
 
-class QDialog;
-
 namespace dynascope {
 
 /// What can be done with the selected devices, as actions for menu, context menu and tool row. Asks only where
@@ -42,11 +40,15 @@ private:
     QAction *add(const QString &name, const QString &iconName, const QString &text, const QString &shortcut,
                  const QString &tip, void (DeviceActions::*slot)());
     std::vector<Device *> devices() const; ///< those that still live
+    std::vector<Device *> living(const std::vector<DeviceKey> &keys) const;
     std::vector<Device *> reachable() const;
     Device *single() const;
-    void open(QDialog *dialog);
+    template <typename Dialog>
+    void open(Device &device, const QString &name); ///< the one about it that is open comes to the front
     void turnTorqueOn(const std::vector<Device *> &devices);
-    void confirm(const QString &title, const QString &text, const QString &yes, std::function<void()> action);
+    /// Asks about `devices`; `action` gets those of them that are still there. The question goes with any of them.
+    void confirm(const QString &title, const QString &text, const std::vector<Device *> &devices,
+                 std::function<void(const std::vector<Device *> &)> action);
 
     void identify();
     void torqueOn();

@@ -17,12 +17,13 @@ namespace dynascope {
 DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &accept, QWidget *parent)
     : QDialog(parent)
     , m_device(&device)
+    , m_title(title)
+    , m_who(new QLabel(this))
     , m_form(new QFormLayout)
     , m_noteIcon(new QLabel(this))
     , m_note(new QLabel(this))
     , m_torqueOff(new QCheckBox(tr("Turn torque off first"), this))
 {
-    setWindowTitle(title);
     setMinimumWidth(440);
     m_note->setObjectName(QStringLiteral("note"));
     m_note->setWordWrap(true);
@@ -32,13 +33,12 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     m_torqueOff->setObjectName(QStringLiteral("turnTorqueOff"));
     m_torqueOff->setToolTip(tr("What the servo holds may fall"));
 
-    auto *who = new QLabel(
-        tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate())), this);
-    who->setWordWrap(true);
-    who->setTextFormat(Qt::PlainText);
-    QFont bold = who->font();
+    m_who->setObjectName(QStringLiteral("who"));
+    m_who->setWordWrap(true);
+    m_who->setTextFormat(Qt::PlainText);
+    QFont bold = m_who->font();
     bold.setBold(true);
-    who->setFont(bold);
+    m_who->setFont(bold);
     m_form->setHorizontalSpacing(16);
     m_form->setVerticalSpacing(8);
 
@@ -54,7 +54,7 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(24, 24, 24, 16);
     layout->setSpacing(16);
-    layout->addWidget(who);
+    layout->addWidget(m_who);
     layout->addLayout(m_form);
     layout->addWidget(m_torqueOff);
     layout->addLayout(note);
@@ -67,7 +67,10 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
         connect(device.line(), &LineSession::stateChanged, this, [this] { check(); });
     connect(m_torqueOff, &QCheckBox::toggled, this, [this] { check(); });
     connect(&device, &QObject::destroyed, this, &QDialog::reject);
-    connect(&device, &Device::attributesChanged, this, [this] { check(); });
+    connect(&device, &Device::attributesChanged, this, [this] {
+        showWho();
+        check();
+    });
     connect(&device, &Device::fieldsChanged, this, [this](int first, int last) {
         const int torque = m_device ? m_device->table().indexOf(u"Torque Enable") : -1;
         if (torque < first || torque > last)
@@ -75,7 +78,17 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
         showTorque();
         check();
     });
+    showWho();
     showTorque();
+}
+
+void DeviceDialog::showWho()
+{
+    if (!m_device)
+        return;
+    m_who->setText(tr("%1, ID %2 at %3").arg(m_device->displayName()).arg(m_device->id()).arg(
+        baudText(m_device->baudRate())));
+    setWindowTitle(tr("%1 – %2, ID %3").arg(m_title, m_device->model()).arg(m_device->id()));
 }
 
 void DeviceDialog::beginWith(QWidget *widget)

@@ -16,7 +16,8 @@ class QPushButton;
 namespace dynascope {
 
 /// What the dialogs about one device share: who it is, a line that says what stands in the way or what will follow,
-/// torque. Closes when the device goes. For open(), never exec().
+/// torque. Closes when the device goes, follows it where it moves. Its title says whose it is, for others may be selected
+/// meanwhile. For present(), never exec().
 class DeviceDialog : public QDialog
 {
     Q_OBJECT
@@ -40,10 +41,13 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
+    void showWho();
     void showTorque();
     void drawNote();
 
     QPointer<Device> m_device;
+    const QString m_title;
+    QLabel *m_who;
     QFormLayout *m_form;
     QLabel *m_noteIcon;
     QLabel *m_note;

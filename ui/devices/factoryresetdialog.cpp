@@ -30,17 +30,14 @@ FactoryResetDialog::FactoryResetDialog(Device &device, Commands &commands, QWidg
 
 void FactoryResetDialog::addOption(ResetOption option, const QString &name, const QString &title)
 {
-    const DevicePlace place = placeAfterReset(*device(), option);
     auto *button = new QRadioButton(title, this);
     button->setObjectName(name);
     auto *label = new QLabel(this);
     label->setWordWrap(true);
     label->setIndent(24);
     label->setForegroundRole(QPalette::PlaceholderText);
-    const QString where = tr("Afterwards: ID %1 at %2.").arg(place.id).arg(baudText(place.baudRate));
-    label->setText(where);
-    button->setAccessibleDescription(where);
     m_options->addButton(button, static_cast<int>(option));
+    m_places.push_back(label);
     form()->addRow(button);
     form()->addRow(label);
 }
@@ -50,10 +47,22 @@ ResetOption FactoryResetDialog::option() const
     return static_cast<ResetOption>(m_options->checkedId());
 }
 
+void FactoryResetDialog::showPlaces()
+{
+    for (std::size_t i = 0; i < m_places.size(); ++i) {
+        QAbstractButton *button = m_options->buttons().at(static_cast<qsizetype>(i));
+        const DevicePlace place = placeAfterReset(*device(), static_cast<ResetOption>(m_options->id(button)));
+        const QString where = tr("Afterwards: ID %1 at %2.").arg(place.id).arg(baudText(place.baudRate));
+        m_places[i]->setText(where);
+        button->setAccessibleDescription(where);
+    }
+}
+
 void FactoryResetDialog::check()
 {
     if (!device())
         return;
+    showPlaces();
     const DevicePlace place = placeAfterReset(*device(), option());
     const LineSession *line = device()->line();
     const Device *other = line ? line->deviceAt(place.id, place.baudRate) : nullptr;

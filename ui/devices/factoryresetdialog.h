@@ -5,6 +5,7 @@
 #include "ui/devices/devicedialog.h"
 
 class QButtonGroup;
+class QLabel;
 
 namespace dynascope {
 
@@ -25,10 +26,12 @@ protected:
 
 private:
     void addOption(ResetOption option, const QString &name, const QString &title);
+    void showPlaces(); ///< where each option would leave the device
     ResetOption option() const;
 
     Commands &m_commands;
     QButtonGroup *m_options;
+    std::vector<QLabel *> m_places; ///< in the order of the options
 };
 
 } // namespace dynascope

@@ -4,7 +4,6 @@
 #include "ui/common/filedialogs.h"
 
 #include <QDir>
-#include <QFileDialog>
 #include <QPointer>
 
 namespace dynascope {
@@ -34,9 +33,7 @@ PlotSaver::PlotSaver(const Monitor &monitor, QWidget *window)
 
 void PlotSaver::ask(const QString &title, const QString &suffix, std::function<void(const QString &)> save)
 {
-    QFileDialog *dialog = makeSaveDialog(m_window, title, suffix, suggestedFileName(suffix));
-    connect(dialog, &QFileDialog::fileSelected, this, std::move(save));
-    dialog->open();
+    askWhereToSave(m_window, title, suffix, suggestedFileName(suffix), std::move(save));
 }
 
 void PlotSaver::askForCsv(std::function<std::vector<CsvSave::Trace>()> traces, LineTime from, LineTime end)

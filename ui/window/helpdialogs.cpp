@@ -2,6 +2,7 @@
 #include "ui/window/helpdialogs.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/present.h"
 
 #include <QAction>
 #include <QCoreApplication>
@@ -36,9 +37,11 @@ QString plainText(const QAction &action)
 
 void showShortcuts(QMainWindow &window)
 {
+    const QString name = QStringLiteral("shortcutsDialog");
+    if (raiseOpen(window, name))
+        return;
     auto *dialog = new QDialog(&window);
-    dialog->setObjectName(QStringLiteral("shortcutsDialog"));
-    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setObjectName(name);
     dialog->setWindowTitle(Help::tr("Keyboard shortcuts"));
     auto *list = new QTreeWidget(dialog);
     list->setColumnCount(2);
@@ -71,14 +74,16 @@ void showShortcuts(QMainWindow &window)
     layout->addWidget(list);
     layout->addWidget(buttons);
     dialog->resize(460, 520);
-    dialog->open();
+    present(*dialog);
 }
 
 void showAbout(QMainWindow &window)
 {
+    const QString name = QStringLiteral("aboutBox");
+    if (raiseOpen(window, name))
+        return;
     auto *box = new QMessageBox(&window);
-    box->setObjectName(QStringLiteral("aboutBox"));
-    box->setAttribute(Qt::WA_DeleteOnClose);
+    box->setObjectName(name);
     box->setWindowTitle(Help::tr("About Dynascope"));
     box->setIconPixmap(applicationIcon().pixmap(QSize(64, 64), window.devicePixelRatioF()));
     box->setTextFormat(Qt::PlainText);
@@ -88,7 +93,7 @@ void showAbout(QMainWindow &window)
         Help::tr("An open workbench for DYNAMIXEL servos, Protocol 2.0.\n\n"
            "Free software under the GNU General Public License, version 3 or later. It comes without any "
            "warranty.\n\nDYNAMIXEL is a trademark of ROBOTIS Co., Ltd., which has no part in this program."));
-    box->open();
+    present(*box);
 }
 
 } // namespace dynascope

@@ -2,6 +2,7 @@
 #include "ui/window/torqueguard.h"
 
 #include "core/session/commands.h"
+#include "ui/common/present.h"
 
 #include <QMessageBox>
 #include <QPushButton>
@@ -69,7 +70,7 @@ bool TorqueGuard::mayClose()
     const std::vector<Device *> devices = holding();
     if (m_agreed || devices.empty())
         return true;
-    if (m_window->findChild<QMessageBox *>(QStringLiteral("torqueBox")))
+    if (raiseOpen(*m_window, QStringLiteral("torqueBox")))
         return false; // it is being asked
     QStringList names;
     for (const Device *device : devices)
@@ -81,7 +82,6 @@ bool TorqueGuard::mayClose()
         QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("torqueBox"));
     box->setTextFormat(Qt::PlainText); // nicknames are in it
-    box->setAttribute(Qt::WA_DeleteOnClose);
     QPushButton *leave = box->addButton(tr("Leave it on and close"), QMessageBox::AcceptRole);
     leave->setObjectName(QStringLiteral("leaveTorqueButton"));
     QPushButton *off = box->addButton(tr("Turn it off and close"), QMessageBox::DestructiveRole);
@@ -100,7 +100,7 @@ bool TorqueGuard::mayClose()
                     agree();
             });
     });
-    box->open();
+    present(*box);
     return false;
 }
 
