@@ -6,6 +6,7 @@
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
 #include "ui/common/icons.h"
+#include "ui/common/loweredge.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/present.h"
 #include "ui/common/stopkey.h"
@@ -118,14 +119,16 @@ void MainWindow::build()
     edge->setFrameShape(QFrame::HLine);
     edge->setFixedHeight(1);
     layout->addWidget(edge);
-    layout->addWidget(m_stopBar);
-    layout->addWidget(m_messages);
     layout->addWidget(m_pages, 1);
     setCentralWidget(centre);
     addToolBar(Qt::TopToolBarArea, m_bar);
     setContextMenuPolicy(Qt::NoContextMenu); // the one of a QMainWindow hides tool bars
     statusBar()->addWidget(m_status, 1);
     statusBar()->setSizeGripEnabled(false);
+    // Both lie over the window: what moved under a pointer would have another servo hit. STOP's takes the place of the
+    // figures, for it may stay long.
+    (new LowerEdge(*m_stopBar, *statusBar()))->coverAll();
+    (new LowerEdge(*m_messages, *centre))->standOn(*m_stopBar);
 }
 
 void MainWindow::connectConnection()

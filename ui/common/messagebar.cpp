@@ -210,7 +210,7 @@ void MessageBar::paintEvent(QPaintEvent *)
     painter.fillRect(rect(), palette().color(QPalette::Base));
     painter.fillRect(rect(), wash);
     painter.fillRect(QRect(0, 0, 4, height()), tint);
-    painter.fillRect(QRect(0, height() - 1, width(), 1), colors(palette()).border);
+    painter.fillRect(QRect(0, 0, width(), 1), colors(palette()).border);
 }
 
 } // namespace dynascope

@@ -23,7 +23,7 @@ struct Message {
     QString topic{};                ///< what it is about: the newest of a topic replaces those before it, whatever their rank
 };
 
-/// One line above the work area: icon, text, perhaps one button. Shows the message that matters most; of those of lower
+/// One line over the lower edge of the work area: icon, text, perhaps one button. Shows the message that matters most; of those of lower
 /// rank the one that matters most waits behind it, the newest where several do alike. The same text again counts up. Success and info go by themselves. Texts
 /// may begin in lower case and end without a full stop.
 class MessageBar : public QFrame

@@ -4,6 +4,7 @@ target_sources(dynascope_ui PRIVATE
     common/flatcontrols.cpp common/flatcontrols.h
     common/flatstyle.cpp common/flatstyle.h
     common/icons.cpp common/icons.h
+    common/loweredge.cpp common/loweredge.h
     common/messagebar.cpp common/messagebar.h
     common/present.cpp common/present.h
     common/stopkey.cpp common/stopkey.h

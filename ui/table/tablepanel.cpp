@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/tablepanel.h"
 
+#include "ui/common/loweredge.h"
 #include "ui/table/editflow.h"
 #include "ui/table/fielddelegate.h"
 #include "ui/table/fieldfiltermodel.h"
@@ -76,6 +77,9 @@ void TablePanel::build()
     m_view->setModel(m_filter);
     m_view->setItemDelegate(m_delegate);
     m_lockBar = new LockBar(grid);
+    (new LowerEdge(*m_lockBar, *m_view->viewport()))->spare([view = m_view] {
+        return view->visualRect(view->currentIndex());
+    });
     m_goals = new GoalBar(m_actions.write, grid);
     m_help = new HelpPanel(grid);
     auto *layout = new QVBoxLayout(grid);
@@ -83,7 +87,6 @@ void TablePanel::build()
     layout->setSpacing(0);
     layout->addWidget(m_tools);
     layout->addWidget(m_view, 1);
-    layout->addWidget(m_lockBar);
     layout->addWidget(makeRule(grid));
     layout->addWidget(m_goals);
     layout->addWidget(makeRule(grid));
