@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/device.h"
 
+#include "core/session/linesession.h"
+
 #include <QCoreApplication>
 
 #include <algorithm>
@@ -72,6 +74,8 @@ QString Device::lockReason(int fieldIndex) const
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
     if (!field.isWritable())
         return tr("%1 is read-only.").arg(field.name);
+    if (m_line && m_line->state() != BusThread::State::Open)
+        return tr("%1 is not connected.").arg(displayName());
     if (m_state == State::Rebooting)
         return tr("%1 is rebooting.").arg(displayName());
     if (field.needsTorqueOff() && isTorqueOn())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/editflow.h"
 
+#include "core/session/linesession.h"
 #include "ui/table/bitpopup.h"
 #include "ui/table/fieldtablemodel.h"
 #include "ui/table/lockbar.h"
@@ -81,7 +82,10 @@ bool EditFlow::explainLock(const QModelIndex &cell, std::function<void()> then)
         return false;
     const Field *field = fieldAt(cell);
     const std::vector<Device *> devices = targets(cell);
-    const bool byTorque = field->needsTorqueOff()
+    const bool connected = std::ranges::none_of(devices, [](const Device *device) {
+        return device->line() && device->line()->state() != BusThread::State::Open;
+    });
+    const bool byTorque = connected && field->needsTorqueOff()
         && std::ranges::any_of(devices, [](const Device *device) { return device->isTorqueOn(); });
     m_locked = cell;
     m_then = std::move(then);

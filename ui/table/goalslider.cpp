@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/goalslider.h"
 
+#include "core/session/linesession.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
@@ -118,7 +119,11 @@ void GoalSlider::refresh()
     const QString lock = device->lockReason(m_field);
     const bool ready = device->isTorqueOn() && lock.isEmpty() && value.raw;
     const QString why = !lock.isEmpty() ? lock : tr("Goals can be moved while torque is on.");
-    m_note->setText(ready ? m_whom : device->isTorqueOn() ? tr("not known yet") : tr("torque is off"));
+    const bool connected = !device->line() || device->line()->state() == BusThread::State::Open;
+    m_note->setText(ready               ? m_whom
+                    : !connected        ? tr("not connected")
+                    : device->isTorqueOn() ? tr("not known yet")
+                                           : tr("torque is off"));
     m_note->setVisible(!m_note->text().isEmpty());
     for (QWidget *part : {static_cast<QWidget *>(m_slider), static_cast<QWidget *>(m_spin)}) {
         part->setEnabled(ready);
