@@ -41,7 +41,7 @@ LineTime duration(const Reaction &reaction)
 SimulatedBus::SimulatedBus(const Catalog &catalog, std::uint64_t seed)
     : m_catalog(catalog)
     , m_seed(seed)
-    , m_wire(std::make_unique<Wire>(seed))
+    , m_wire(std::make_unique<Wire>())
     , m_spoiler(std::make_unique<ReplySpoiler>())
     , m_adapter(std::make_unique<Adapter>())
 {
