@@ -112,6 +112,11 @@ void SimulatedBus::receive(Bytes &to, LineTime now, int baudRate)
     m_adapter->deliver(to, now);
 }
 
+std::pair<LineTime, LineTime> SimulatedBus::arrived() const
+{
+    return m_adapter->delivered();
+}
+
 void SimulatedBus::bringToAdapter(LineTime now)
 {
     m_heard.clear();
@@ -130,6 +135,7 @@ void SimulatedBus::setFaults(LineFaults faults)
     m_spoiler->setFaults(faults);
     m_adapter->setFaults(faults, m_now);
     m_wire->setEcho(faults.echo.on);
+    m_jitter = Chance(faults.seed ^ SeedStep);
     m_faults = std::move(faults);
 }
 
@@ -233,7 +239,7 @@ void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
         switch (reaction.turn) {
         case Reaction::Turn::Direct: {
             Scheduled reply;
-            reply.at = reaction.heardAt + reaction.delay;
+            reply.at = reaction.heardAt + reaction.delay + jitter();
             reply.servo = servo;
             reply.baudRate = reaction.baudRate;
             reply.bytes = encode(reaction.status);
@@ -251,6 +257,12 @@ void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
         continueChain(chain, 0, chain->heardAt);
 }
 
+LineTime SimulatedBus::jitter()
+{
+    const auto most = static_cast<double>(m_faults.replyJitter.count());
+    return most > 0 ? LineTime(static_cast<LineTime::rep>(most * m_jitter.fraction())) : LineTime{};
+}
+
 void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
 {
     if (pings.empty())
@@ -262,7 +274,7 @@ void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
     const std::vector<LineTime> times = pingTimes(pings.front().second.heardAt, turns);
     for (std::size_t i = 0; i < pings.size(); ++i) {
         Scheduled reply;
-        reply.at = times[i];
+        reply.at = times[i] + jitter();
         reply.servo = pings[i].first;
         reply.baudRate = pings[i].second.baudRate;
         reply.bytes = encode(pings[i].second.status);
@@ -293,7 +305,7 @@ void SimulatedBus::continueChain(const std::shared_ptr<Chain> &chain, std::size_
         if (member.index != index)
             continue;
         Scheduled reply;
-        reply.at = from + member.delay;
+        reply.at = from + member.delay + jitter();
         reply.servo = member.servo;
         reply.baudRate = member.baudRate;
         reply.bytes = chainBytes(*chain, index, member.status);

@@ -3,6 +3,7 @@
 
 #include "core/bus/line.h"
 #include "core/result.h"
+#include "core/sim/chance.h"
 #include "core/sim/linefaults.h"
 #include "core/table/catalog.h"
 
@@ -62,6 +63,8 @@ public:
 
     /// Bytes that reach a controller listening at `baudRate` up to and including `now`, each once, appended to `to`.
     void receive(Bytes &to, LineTime now, int baudRate);
+    /// When the first and the last of those that the latest receive() brought were due.
+    std::pair<LineTime, LineTime> arrived() const;
     /// No byte comes before this moment, which is later than that of the last receive(); nothing where none is on
     /// its way. A later receive() may find that what was to come has been a device's silence.
     std::optional<LineTime> nextArrival() const;
@@ -95,6 +98,7 @@ private:
     void continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from);
     void begin(Scheduled &reply);
     void interrupt(const Servo *servo);
+    LineTime jitter();
 
     const Catalog &m_catalog;
     std::uint64_t m_seed;
@@ -104,6 +108,7 @@ private:
     std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet
     LineTime m_now{}, m_controllerFree{};
     LineFaults m_faults;
+    Chance m_jitter{1};
     std::unique_ptr<ReplySpoiler> m_spoiler;
     std::unique_ptr<Adapter> m_adapter;
     int m_listening = 57600; ///< the controller's rate

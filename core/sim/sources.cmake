@@ -11,9 +11,11 @@ target_sources(dynascope_core PRIVATE
     sim/chance.h
     sim/damage.cpp sim/damage.h
     sim/demoscript.cpp sim/demoscript.h
+    sim/faulttext.cpp sim/faulttext.h
     sim/groupreply.cpp sim/groupreply.h
     sim/linefaults.h
     sim/motionregisters.cpp sim/motionregisters.h
+    sim/pacing.cpp sim/pacing.h
     sim/registerfile.cpp sim/registerfile.h
     sim/replyspoiler.cpp sim/replyspoiler.h
     sim/servo.cpp sim/servo.h sim/servocommands.cpp sim/servosettings.h sim/servowrites.cpp
