@@ -60,8 +60,8 @@ public:
     void setHardwareError(std::uint8_t bits);                ///< as if it had happened: Alert, Shutdown
     void powerCycle() { boot(m_now); }                       ///< deaf while it boots
     void setPlugged(bool plugged);                           ///< without its cable: no power, nobody hears
+    void setOtherAxis(const Servo *other) { m_otherAxis = other; } ///< of a two-axis model: one lock of the EEPROM
     /// @}
-
     /// After each write that came by the wire and was obeyed.
     using WriteObserver = std::function<void(Servo &, int address, ByteView data)>;
     void setWriteObserver(WriteObserver observer) { m_observer = std::move(observer); }
@@ -110,8 +110,8 @@ private:
     Parser m_parser;
     int m_baudRate;
     LineTime m_now{}, m_heardLast{}, m_instructedLast{}, m_deafUntil{}, m_bootedAt{};
-    bool m_shutDown = false; ///< by Shutdown: no torque until it boots
-    bool m_restart = false;  ///< boots as soon as the answer is made
+    bool m_shutDown = false, m_restart = false; ///< no torque until it boots; boots as soon as the answer is made
+    const Servo *m_otherAxis = nullptr;
     std::optional<WriteCommand> m_registered;
     std::optional<Bytes> m_backup;
     WriteObserver m_observer;

@@ -28,7 +28,8 @@ DeviceError Servo::checkWrite(int address, ByteView data, Address how) const
         return DeviceError::DataLength;
     if (!m_registers.isInside(address, static_cast<int>(data.size())))
         return DeviceError::Access;
-    if (touchesEeprom(address, data) && (m_motion.joint().torque() || how == Address::Secondary))
+    const bool locked = m_motion.joint().torque() || (m_otherAxis && m_otherAxis->m_motion.joint().torque());
+    if (touchesEeprom(address, data) && (locked || how == Address::Secondary))
         return DeviceError::Access;
     const bool watchdogTripped = m_registers.get(Reg::BusWatchdog) < 0;
     for (const RegisterFile::Run &run : m_registers.targets(address, data)) {

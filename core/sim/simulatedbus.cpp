@@ -56,24 +56,49 @@ void SimulatedBus::beginAt(LineTime now)
         servo->beginAt(now);
 }
 
-Result<Servo *> SimulatedBus::add(const ServoSpec &spec)
+Result<Servo *> SimulatedBus::add(const ServoSpec &wanted)
 {
+    ServoSpec spec = wanted;
+    if (const auto good = checkServoSpec(spec, m_catalog); !good)
+        return tl::unexpected(good.error());
     const Catalog::ModelInfo *info = m_catalog.model(QStringView(spec.model));
-    if (!info)
-        return failure(ErrorKind::NotFound, QStringLiteral("%1 is not a model the simulator knows").arg(spec.model));
     const int firmware = spec.firmware < 0 ? info->newestFirmware : spec.firmware;
-    ControlTablePtr table = m_catalog.find(info->modelNumber, firmware);
+    const ControlTablePtr table = m_catalog.find(info->modelNumber, firmware);
     const MotorModel *motor = findMotor(info->model);
-    if (!table || !motor)
+    if (!motor)
         return failure(ErrorKind::NotSupported, QStringLiteral("The simulator can't play %1").arg(info->model));
-    if (!table->baudCode(spec.baudRate))
-        return failure(ErrorKind::InvalidArgument,
-                       QStringLiteral("%1 has no rate of %2 bps").arg(info->model).arg(spec.baudRate));
-    m_seed += SeedStep;
-    m_servos.push_back(std::make_unique<Servo>(std::move(table), *motor,
-                                               Servo::Identity{firmware, spec.id, spec.baudRate}, m_seed));
-    m_servos.back()->beginAt(m_now);
-    return m_servos.back().get();
+    const std::size_t first = m_servos.size();
+    for (const int id : {spec.id, spec.secondId}) {
+        if (id < 0)
+            continue;
+        m_seed += SeedStep;
+        m_servos.push_back(
+            std::make_unique<Servo>(table, *motor, Servo::Identity{firmware, id, spec.baudRate}, m_seed));
+        m_servos.back()->beginAt(m_now);
+    }
+    Servo *const servo = m_servos[first].get();
+    if (spec.secondId >= 0) {
+        Servo *const second = m_servos[first + 1].get();
+        servo->setOtherAxis(second);
+        second->setOtherAxis(servo);
+        m_twins.push_back({{servo, second}, spec.baudRate});
+    }
+    return servo;
+}
+
+/// Two axes are one device on the wire: a rate that one was told is the other's too.
+void SimulatedBus::shareBaudRates()
+{
+    for (Twins &twins : m_twins) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            Servo &told = *twins.axes[i], &other = *twins.axes[1 - i];
+            if (told.baudRate() == twins.baudRate)
+                continue;
+            twins.baudRate = told.baudRate();
+            other.write(nameOf(Known::BaudRate), told.table().baudCode(twins.baudRate).value_or(0));
+            break;
+        }
+    }
 }
 
 Servo *SimulatedBus::servo(int id, int baudRate) const
@@ -220,6 +245,7 @@ void SimulatedBus::hearController(const Transmission &sent)
         for (Reaction &reaction : reactions)
             all.emplace_back(servo.get(), std::move(reaction));
     }
+    shareBaudRates();
     plan(std::move(all));
 }
 

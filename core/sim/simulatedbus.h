@@ -5,8 +5,9 @@
 #include "core/result.h"
 #include "core/sim/chance.h"
 #include "core/sim/linefaults.h"
-#include "core/table/catalog.h"
+#include "core/sim/servospec.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -20,19 +21,6 @@ struct HeardByte;
 struct Reaction;
 struct Transmission;
 struct Chain;
-
-/// One servo of a simulated bus: MODEL[/FIRMWARE]@BAUD:ID.
-struct ServoSpec {
-    QString model;
-    int firmware = -1; ///< −1: the newest the catalog knows
-    int baudRate = 57600;
-    int id = 1;
-
-    friend bool operator==(const ServoSpec &, const ServoSpec &) = default;
-};
-
-/// "XM430-W350@57600:1,XL330-M288/52@1000000:7"; the message names the entry that is wrong.
-Result<std::vector<ServoSpec>> parseServoSpecs(QStringView text, const Catalog &catalog);
 
 /// One entry of the wire's own log: bytes as they stood on the wire.
 struct WireEntry {
@@ -54,7 +42,7 @@ public:
     /// Where the clock of the calls stands, before anything is sent. Time starts at 0 otherwise.
     void beginAt(LineTime now);
 
-    Result<Servo *> add(const ServoSpec &spec);
+    Result<Servo *> add(const ServoSpec &spec); ///< of two axes, the first
     const std::vector<std::unique_ptr<Servo>> &servos() const { return m_servos; }
     Servo *servo(int id, int baudRate) const; ///< nullptr where there is none
 
@@ -98,11 +86,17 @@ private:
     void continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from);
     void begin(Scheduled &reply);
     void interrupt(const Servo *servo);
+    void shareBaudRates();
     LineTime jitter();
 
     const Catalog &m_catalog;
     std::uint64_t m_seed;
     std::vector<std::unique_ptr<Servo>> m_servos;
+    struct Twins {
+        std::array<Servo *, 2> axes{};
+        int baudRate = 57600; ///< as both have had it
+    };
+    std::vector<Twins> m_twins;
     std::unique_ptr<Wire> m_wire;
     std::vector<Scheduled> m_scheduled;
     std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet

@@ -8,7 +8,10 @@ target_sources(dynascope_core PRIVATE
 target_sources(dynascope_core PRIVATE
     sim/adapter.cpp sim/adapter.h
     sim/baudmismatch.cpp sim/baudmismatch.h
+    sim/busfile.cpp sim/busplan.cpp sim/busplan.h
     sim/chance.h
+    sim/control.cpp sim/control.h sim/controlload.cpp sim/controlnumbers.h
+    sim/controlverbs.cpp sim/controlverbs.h
     sim/damage.cpp sim/damage.h
     sim/demoscript.cpp sim/demoscript.h
     sim/faulttext.cpp sim/faulttext.h
@@ -19,13 +22,15 @@ target_sources(dynascope_core PRIVATE
     sim/registerfile.cpp sim/registerfile.h
     sim/replyspoiler.cpp sim/replyspoiler.h
     sim/servo.cpp sim/servo.h sim/servocommands.cpp sim/servosettings.h sim/servowrites.cpp
-    sim/servospecs.cpp
+    sim/servospec.h sim/servospecs.cpp
     sim/simulatedbus.cpp sim/simulatedbus.h
     sim/simulatedline.cpp sim/simulatedline.h
     sim/wire.cpp sim/wire.h
+    sim/yamltree.cpp sim/yamltree.h
 )
 if(UNIX)
     target_sources(dynascope_core PRIVATE
+        sim/controlchannel_posix.cpp sim/controlchannel.h sim/controlsocket_posix.cpp sim/controlsocket.h
         sim/demo.cpp sim/demo.h
         sim/packetassembler.cpp sim/packetassembler.h
         sim/pseudoterminal_posix.cpp sim/pseudoterminal.h

@@ -15,14 +15,14 @@ QStringList keys(const char *list)
 const QStringList &fileKeys()
 {
     static const QStringList list = keys("format extends series resolution newestFirmware baudRates fastReadsSince "
-                                         "backupSince definitions registers indirect models");
+                                         "backupSince axes definitions registers indirect models");
     return list;
 }
 
 const QStringList &modelKeys()
 {
     static const QStringList list = keys("number manual series resolution newestFirmware baudRates fastReadsSince "
-                                         "backupSince registers indirect");
+                                         "backupSince axes registers indirect");
     return list;
 }
 
