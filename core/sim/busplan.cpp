@@ -2,6 +2,7 @@
 #include "core/sim/busplan.h"
 
 #include "core/sim/controlverbs.h"
+#include "core/sim/power.h"
 
 namespace dynascope::sim {
 namespace {
@@ -27,8 +28,8 @@ Result<void> prepare(Servo &servo, const BusPlan::Device &device, const BusPlan:
         joint.setShaftAngle(*axis.angle);
     if (device.supply)
         verbs::setSupply(servo, *device.supply);
-    if (axis.stops && !verbs::setStops(servo, axis.stops->first, axis.stops->second))
-        return failure(ErrorKind::NotSupported, QStringLiteral("This simulator knows no hard stops"));
+    if (axis.stops)
+        joint.setStops(axis.stops->first, axis.stops->second);
     return {};
 }
 
@@ -49,6 +50,8 @@ Result<std::unique_ptr<SimulatedBus>> makeBus(const BusPlan &plan, const Catalog
 {
     const std::uint64_t seed = plan.seed.value_or(1);
     auto bus = std::make_unique<SimulatedBus>(catalog, seed);
+    if (plan.supply)
+        bus->power().setVoltage(*plan.supply);
     for (const BusPlan::Device &device : plan.devices) {
         const std::size_t first = bus->servos().size();
         if (const auto added = bus->add(device.spec); !added)
@@ -59,8 +62,6 @@ Result<std::unique_ptr<SimulatedBus>> makeBus(const BusPlan &plan, const Catalog
                 return tl::unexpected(prepared.error());
         }
     }
-    if (plan.supply)
-        verbs::setSupply(*bus, *plan.supply);
     for (const auto &servo : bus->servos()) {
         if (plan.temperature)
             servo->joint().setAmbientTemperature(*plan.temperature);

@@ -5,6 +5,7 @@
 #include "core/sim/controlnumbers.h"
 #include "core/sim/controlverbs.h"
 #include "core/sim/faulttext.h"
+#include "core/sim/truth.h"
 
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -165,11 +166,11 @@ Control::Answer Control::status(const Call &call)
 Control::Answer Control::truthOf(const Call &call)
 {
     if (call.words.isEmpty() || call.words[0] == u"all")
-        return compact(verbs::truth(call.bus));
+        return compact(truth(call.bus));
     const auto found = who(call.words[0], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    return compact(verbs::truth(*found->front()));
+    return compact(truth(*found->front()));
 }
 
 Control::Answer Control::fault(const Call &call)
@@ -224,22 +225,22 @@ Control::Answer Control::power(const Call &call)
     const auto on = onOrOff(call.words[0]);
     if (!on)
         return wrong(QStringLiteral("power on or power off"));
-    if (call.words.size() < 2)
-        return verbs::setPower(call.bus, *on) ? Answer() : notPossible();
+    if (call.words.size() < 2) {
+        verbs::setPower(call.bus, *on);
+        return {};
+    }
     const auto found = who(call.words[1], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    for (Servo *servo : *found) {
-        if (!verbs::setPower(*servo, *on))
-            return notPossible();
-    }
+    for (Servo *servo : *found)
+        servo->setPower(*on);
     return {};
 }
 
 Control::Answer Control::quit(const Call &)
 {
     if (!m_around.quit)
-        return notPossible();
+        return failure(ErrorKind::NotSupported, QStringLiteral("This simulator ends otherwise"));
     m_around.quit();
     return {};
 }

@@ -63,7 +63,7 @@ private:
     Answer setPlugged(const Call &call, bool plugged);
     /// One number for each of the devices that the first word names.
     Answer eachWithNumber(const Call &call, QStringView unit, double low, double high,
-                          const std::function<bool(Servo &, double)> &set);
+                          const std::function<void(Servo &, double)> &set);
     /// "all", "#2" (the second), an ID, ID@BAUD, or a name.
     Result<std::vector<Servo *>> who(QStringView text, const SimulatedBus &bus) const;
     QString nameOf(std::size_t index) const;

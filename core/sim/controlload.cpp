@@ -3,6 +3,7 @@
 #include "core/sim/control.h"
 #include "core/sim/controlnumbers.h"
 #include "core/sim/controlverbs.h"
+#include "core/sim/power.h"
 
 namespace dynascope::sim {
 namespace {
@@ -17,7 +18,7 @@ constexpr double ColdestAmbient = -100, HottestAmbient = 300; ///< °C
 } // namespace
 
 Control::Answer Control::eachWithNumber(const Call &call, QStringView unit, double low, double high,
-                                        const std::function<bool(Servo &, double)> &set)
+                                        const std::function<void(Servo &, double)> &set)
 {
     const auto number = numberOf(call.words[1], unit, low, high);
     if (!number)
@@ -25,29 +26,27 @@ Control::Answer Control::eachWithNumber(const Call &call, QStringView unit, doub
     const auto found = who(call.words[0], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    for (Servo *servo : *found) {
-        if (!set(*servo, *number))
-            return notPossible();
-    }
+    for (Servo *servo : *found)
+        set(*servo, *number);
     return {};
 }
 
 Control::Answer Control::supply(const Call &call)
 {
-    const auto one = [](Servo &servo, double volts) { return verbs::setSupply(servo, volts); };
+    const auto one = [](Servo &servo, double volts) { verbs::setSupply(servo, volts); };
     if (call.words.size() == 2)
         return eachWithNumber(call, u"V", 0, MostVolts, one);
     const auto volts = numberOf(call.words[0], u"V", 0, MostVolts);
     if (!volts)
         return noNumber(call.words[0], u"V", 0, MostVolts);
-    return verbs::setSupply(call.bus, *volts) ? Answer() : notPossible();
+    call.bus.power().setVoltage(*volts);
+    return {};
 }
 
 Control::Answer Control::temperature(const Call &call)
 {
     return eachWithNumber(call, u"C", ColdestAmbient, HottestAmbient, [](Servo &servo, double celsius) {
         servo.joint().setAmbientTemperature(celsius);
-        return true;
     });
 }
 
@@ -61,9 +60,9 @@ Control::Answer Control::push(const Call &call)
     }
     return eachWithNumber(call, u"Nm", -MostTorque, MostTorque, [&](Servo &servo, double torque) {
         if (seconds)
-            return verbs::push(servo, torque, *seconds);
-        servo.joint().setLoadTorque(torque);
-        return true;
+            servo.joint().push(torque, *seconds);
+        else
+            servo.joint().setLoadTorque(torque);
     });
 }
 
@@ -71,14 +70,12 @@ Control::Answer Control::hold(const Call &call)
 {
     if (call.words.size() == 2)
         return eachWithNumber(call, u"deg", -MostDegrees, MostDegrees,
-                              [](Servo &servo, double degrees) { return verbs::hold(servo, degrees); });
+                              [](Servo &servo, double degrees) { servo.joint().hold(degrees); });
     const auto found = who(call.words[0], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    for (Servo *servo : *found) {
-        if (!verbs::hold(*servo, verbs::shaftAngle(*servo)))
-            return notPossible();
-    }
+    for (Servo *servo : *found)
+        servo->joint().hold(verbs::shaftAngle(*servo));
     return {};
 }
 
@@ -87,10 +84,8 @@ Control::Answer Control::release(const Call &call)
     const auto found = who(call.words[0], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    for (Servo *servo : *found) {
-        if (!verbs::hold(*servo, std::nullopt))
-            return notPossible();
-    }
+    for (Servo *servo : *found)
+        servo->joint().hold(std::nullopt);
     return {};
 }
 
@@ -106,10 +101,8 @@ Control::Answer Control::stops(const Call &call)
     const auto found = who(call.words[0], call.bus);
     if (!found)
         return tl::unexpected(found.error());
-    for (Servo *servo : *found) {
-        if (!verbs::setStops(*servo, lowest, highest))
-            return notPossible();
-    }
+    for (Servo *servo : *found)
+        servo->joint().setStops(lowest, highest);
     return {};
 }
 
@@ -117,7 +110,6 @@ Control::Answer Control::gravity(const Call &call)
 {
     return eachWithNumber(call, u"Nm", -MostTorque, MostTorque, [](Servo &servo, double torque) {
         servo.joint().setGravityArm(torque);
-        return true;
     });
 }
 
@@ -125,7 +117,6 @@ Control::Answer Control::inertia(const Call &call)
 {
     return eachWithNumber(call, u"kgm2", 0, MostInertia, [](Servo &servo, double inertia) {
         servo.joint().setExtraInertia(inertia);
-        return true;
     });
 }
 
@@ -133,7 +124,6 @@ Control::Answer Control::angle(const Call &call)
 {
     return eachWithNumber(call, u"deg", -MostDegrees, MostDegrees, [](Servo &servo, double degrees) {
         servo.joint().setShaftAngle(degrees);
-        return true;
     });
 }
 
@@ -141,7 +131,6 @@ Control::Answer Control::hardwareError(const Call &call)
 {
     return eachWithNumber(call, {}, 0, 255, [](Servo &servo, double bits) {
         servo.setHardwareError(static_cast<std::uint8_t>(bits));
-        return true;
     });
 }
 

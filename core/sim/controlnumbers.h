@@ -28,9 +28,4 @@ inline tl::unexpected<Error> noNumber(QStringView text, QStringView unit, double
                      .arg(text.toString()).arg(low).arg(high).arg(unit.toString()));
 }
 
-inline tl::unexpected<Error> notPossible()
-{
-    return failure(ErrorKind::NotSupported, QStringLiteral("This simulator can't do that"));
-}
-
 } // namespace dynascope::sim

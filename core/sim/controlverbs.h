@@ -4,20 +4,11 @@
 #include "core/sim/servo.h"
 #include "core/sim/simulatedbus.h"
 
-#include <QJsonObject>
-
-/// What a control channel does to servos and their surroundings, in one place. False: this simulator can't.
+/// What a control channel and a bus file do to servos and their surroundings beyond what these offer themselves.
 namespace dynascope::sim::verbs {
 
-bool push(Servo &servo, double newtonMetres, double seconds);
-bool hold(Servo &servo, std::optional<double> degrees); ///< a hand that keeps the shaft there; nothing: lets go
-bool setStops(Servo &servo, std::optional<double> lowest, std::optional<double> highest); ///< degrees
-bool setPower(Servo &servo, bool on);
-bool setPower(SimulatedBus &bus, bool on);
-bool setSupply(SimulatedBus &bus, double volts);
-bool setSupply(Servo &servo, double volts);
-double shaftAngle(Servo &servo); ///< degrees
-QJsonObject truth(Servo &servo);
-QJsonObject truth(SimulatedBus &bus);
+void setPower(SimulatedBus &bus, bool on);     ///< the main switch, of devices with a supply of their own too
+void setSupply(Servo &servo, double volts);    ///< from now on it has a supply of its own
+double shaftAngle(Servo &servo);               ///< degrees, many turns
 
 } // namespace dynascope::sim::verbs

@@ -5,6 +5,7 @@
 #include "core/sim/baudmismatch.h"
 #include "core/sim/groupreply.h"
 #include "core/sim/motor.h"
+#include "core/sim/power.h"
 #include "core/sim/replyspoiler.h"
 #include "core/sim/wire.h"
 
@@ -41,6 +42,7 @@ LineTime duration(const Reaction &reaction)
 SimulatedBus::SimulatedBus(const Catalog &catalog, std::uint64_t seed)
     : m_catalog(catalog)
     , m_seed(seed)
+    , m_power(std::make_unique<Power>())
     , m_wire(std::make_unique<Wire>())
     , m_spoiler(std::make_unique<ReplySpoiler>())
     , m_adapter(std::make_unique<Adapter>())
@@ -52,6 +54,7 @@ SimulatedBus::~SimulatedBus() = default;
 void SimulatedBus::beginAt(LineTime now)
 {
     m_now = m_controllerFree = now;
+    m_power->beginAt(now);
     for (const auto &servo : m_servos)
         servo->beginAt(now);
 }
@@ -75,6 +78,7 @@ Result<Servo *> SimulatedBus::add(const ServoSpec &wanted)
         m_servos.push_back(
             std::make_unique<Servo>(table, *motor, Servo::Identity{firmware, id, spec.baudRate}, m_seed));
         m_servos.back()->beginAt(m_now);
+        m_power->connect(*m_servos.back(), m_now);
     }
     Servo *const servo = m_servos[first].get();
     if (spec.secondId >= 0) {
@@ -353,7 +357,7 @@ void SimulatedBus::hearServo(const Transmission &sent)
 
 void SimulatedBus::begin(Scheduled &reply)
 {
-    if (isAmong(m_faults.silent, *reply.servo) || isAmong(m_faults.deaf, *reply.servo))
+    if (!reply.servo->isPowered() || isAmong(m_faults.silent, *reply.servo) || isAmong(m_faults.deaf, *reply.servo))
         return;
     Transmission sent;
     sent.begin = reply.at;

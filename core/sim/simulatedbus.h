@@ -14,6 +14,7 @@
 namespace dynascope::sim {
 
 class Adapter;
+class Power;
 class ReplySpoiler;
 class Servo;
 class Wire;
@@ -45,6 +46,7 @@ public:
     Result<Servo *> add(const ServoSpec &spec); ///< of two axes, the first
     const std::vector<std::unique_ptr<Servo>> &servos() const { return m_servos; }
     Servo *servo(int id, int baudRate) const; ///< nullptr where there is none
+    Power &power() const { return *m_power; } ///< what feeds them
 
     /// The controller begins to send `bytes` at `begin`; its last bit leaves bytes × byte time later.
     void send(ByteView bytes, LineTime begin, int baudRate);
@@ -97,6 +99,7 @@ private:
         int baudRate = 57600; ///< as both have had it
     };
     std::vector<Twins> m_twins;
+    std::unique_ptr<Power> m_power;
     std::unique_ptr<Wire> m_wire;
     std::vector<Scheduled> m_scheduled;
     std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet
