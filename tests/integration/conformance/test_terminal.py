@@ -118,6 +118,27 @@ class Terminal(unittest.TestCase):
         port.close()
 
 
+class Pace(unittest.TestCase):
+    def test_a_machine_that_is_too_slow_says_so(self):
+        sim = Sim("--devices", "XM430-W350@9600:1")
+        port = Port(sim.path, 9600)
+        for _ in range(6):  # stopped in the middle of an answer, which takes 15 ms
+            port.send(packet(1, PING))
+            self.assertTrue(select.select([port.fd], [], [], 5)[0])
+            sim.process.send_signal(signal.SIGSTOP)
+            time.sleep(0.06)
+            sim.process.send_signal(signal.SIGCONT)
+            self.assertEqual(len(split(port.receive(lambda data: len(data) >= 14))[0]), 1)
+        behind = lambda: not json.loads(sim.ctl("status")[1])["pacing"]["keepsUp"]
+        self.assertTrue(until(behind, 10))
+        pacing = json.loads(sim.ctl("status")[1])["pacing"]
+        self.assertGreaterEqual(pacing["late"], 3)
+        self.assertGreater(pacing["latenessUs"]["worst"], 10000)
+        port.close()
+        sim.process.terminate()
+        self.assertIn(b"does not keep up", sim.process.communicate(timeout=30)[1])
+
+
 @unittest.skipUnless(os.geteuid() == 0, "TIOCEXCL doesn't bind root: this needs root to become somebody else")
 class NotRoot(unittest.TestCase):
     """The simulator and its clients as nobody, who is bound by exclusive locks."""
