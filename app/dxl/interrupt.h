@@ -14,6 +14,7 @@ public:
     ~Interrupt(); ///< the signals do again what they did
 
     void wait(); ///< until one comes
+    static void request(); ///< as if one had come; from any thread
     bool came(); ///< has one come? From then on: yes
 
 private:

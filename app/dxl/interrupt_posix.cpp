@@ -2,6 +2,7 @@
 #include "app/dxl/interrupt.h"
 
 #include <csignal>
+#include <unistd.h>
 
 namespace dynascope::dxl {
 
@@ -28,6 +29,11 @@ void Interrupt::wait()
 {
     int signal = 0;
     sigwait(&m_signals->ending, &signal);
+}
+
+void Interrupt::request()
+{
+    kill(getpid(), SIGTERM); // to the process: the thread that asks has it blocked, and so have all
 }
 
 bool Interrupt::came()

@@ -15,7 +15,7 @@ namespace {
 
 /// As typed, before our own languages are read.
 struct Typed {
-    std::string port, ids = "0-252", devices, link;
+    std::string port, ids = "0-252";
     std::optional<std::string> bauds, idList;
     double seconds = 10;
     int baudRate = 57600;
@@ -24,6 +24,7 @@ struct Typed {
     bool verbose = false;
     bool sweep = false;
     std::vector<std::string> registers;
+    SimArguments sim;
 };
 
 constexpr const char *Values =
@@ -88,12 +89,7 @@ void describe(CLI::App &app, Typed &typed)
 
     describeStats(app, typed);
 
-    CLI::App *sim = app.add_subcommand("sim", "Serve simulated devices on a pseudo-terminal until interrupted; its path "
-                                              "is the first line of standard output");
-    sim->add_option("--devices", typed.devices, "MODEL[/FIRMWARE]@BAUD:ID, joined by commas")
-        ->required()
-        ->type_name("LIST");
-    sim->add_option("--link", typed.link, "Also a symbolic link to the terminal")->type_name("PATH");
+    typed.sim.describe(app);
 }
 
 Result<Options> understand(const CLI::App &app, const Typed &typed)
@@ -114,8 +110,12 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     options.json = typed.json;
     options.verbose = typed.verbose;
     options.id = static_cast<std::uint8_t>(typed.id);
-    options.devices = QString::fromStdString(typed.devices);
-    options.link = QString::fromStdString(typed.link);
+    if (options.command == Command::Sim) {
+        auto sim = typed.sim.understand();
+        if (!sim)
+            return tl::unexpected(sim.error());
+        options.sim = std::move(*sim);
+    }
     if (options.port.isEmpty() && options.command != Command::Sim)
         return failure(ErrorKind::InvalidArgument, QStringLiteral("%1 needs a port: dxl --port PATH %1")
                                                        .arg(QString::fromStdString(name)));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/simoptions.h"
 
 #include <vector>
 
@@ -33,9 +34,7 @@ struct Options {
     // stats, with `registers`
     double seconds = 10;
     std::vector<std::uint8_t> idList; ///< who should be there; empty: whoever a scan finds
-    // sim
-    QString devices;
-    QString link;
+    SimOptions sim;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

@@ -73,10 +73,13 @@ void Adapter::deliver(Bytes &to, LineTime now)
     }
     if (!m_held.empty() && m_held.front().at + m_faults.latencyTimer <= now)
         release(m_held.front().at + m_faults.latencyTimer);
+    if (!m_ready.empty() && m_ready.front().at <= now)
+        m_delivered.first = m_ready.front().at;
     while (!m_ready.empty() && m_ready.front().at <= now) {
         const Ready byte = m_ready.front();
         if (byte.answer && m_faults.unplugAtAnswered && m_answered++ == *m_faults.unplugAtAnswered)
             return unplug();
+        m_delivered.second = byte.at;
         m_ready.pop_front();
         to.push_back(byte.byte);
     }

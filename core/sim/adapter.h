@@ -21,6 +21,8 @@ public:
     /// In the order of the wire.
     void take(const std::vector<HeardByte> &bytes);
     void deliver(Bytes &to, LineTime now);
+    /// When the first and the last byte of the latest deliver() that brought any were due.
+    std::pair<LineTime, LineTime> delivered() const { return m_delivered; }
 
     std::optional<LineTime> next() const;  ///< when it hands on the next byte of those it has, or is pulled out
     std::optional<LineTime> quiet() const; ///< when the last of them
@@ -43,6 +45,7 @@ private:
     Chance m_chance{1};
     std::vector<HeardByte> m_held; ///< until the timer ends or there are enough
     std::deque<Ready> m_ready;     ///< by time
+    std::pair<LineTime, LineTime> m_delivered{};
     LineTime m_last{};             ///< of what went through m_ready
     std::optional<LineTime> m_unplugAt, m_nextNoise;
     int m_sent = 0, m_answered = 0; ///< bytes, since the faults were set

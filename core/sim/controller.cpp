@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/controller.h"
 
-#include "core/sim/joint.h"
 #include "core/sim/motor.h"
 
 #include <algorithm>
@@ -11,8 +10,8 @@ namespace dynascope::sim {
 
 namespace {
 
-// Register scalings, manual: "Position PID Gain", "Feedforward", "Velocity PI Gain". That errors are in pulses (velocity:
-// 0.229 rev/min), sums per loop of 1 ms and rates in pulses/ms is not documented: chosen.
+// Register scalings, manual: "Position PID Gain", "Feedforward", "Velocity PI Gain". What errors are counted in isn't
+// documented: JointTuning.
 constexpr double positionPScale = 128, positionIScale = 65536, positionDScale = 16, feedforwardScale = 4;
 constexpr double velocityPScale = 128, velocityIScale = 65536;
 
@@ -25,28 +24,38 @@ double within(double value, double bound)
     return std::clamp(value, -bound, bound);
 }
 
-} // namespace
-
-Controller::Controller(const MotorModel &motor, double resolution)
-    : m_resolution(resolution)
-    , m_resistance(motor.resistance())
+double pwmBound(const JointSettings &settings)
 {
-}
-
-double Controller::pwmBound(const JointSettings &settings)
-{
-    const double limit = std::min(std::abs(double(settings.pwmLimit)), fullPwm);
+    const double limit = std::min(std::abs(double(settings.pwmLimit)), settings.fullPwm);
     // In PWM mode Goal PWM is the order itself, and its limit bounds it.
     return settings.operatingMode == 16 ? limit : std::min(limit, std::abs(double(settings.goalPwm)));
 }
 
-double Controller::pwm(const JointSettings &settings, const Feedback &feedback)
+} // namespace
+
+Controller::Controller(const MotorModel &motor)
+    : m_resistance(motor.resistance())
 {
-    m_last = order(settings, feedback);
+}
+
+double Controller::pwm(const JointSettings &settings, const JointTuning &tuning, const Feedback &feedback)
+{
+    double next = order(settings, tuning, feedback);
+    const double perVolt = settings.fullPwm / std::max(1.0, feedback.voltage);
+    if (settings.limitsEveryCurrent) {
+        const double emf = m_last - feedback.current * m_resistance * perVolt;
+        const double room = std::abs(settings.currentLimit * settings.currentUnit / 1000) * m_resistance * perVolt;
+        next = within(std::clamp(next, emf - room, emf + room), pwmBound(settings));
+    }
+    if (settings.pwmSlope > 0) {
+        const double most = settings.pwmSlope * std::max(1, tuning.loopTime) * perVolt;
+        next = std::clamp(next, m_last - most, m_last + most);
+    }
+    m_last = next;
     return m_last;
 }
 
-double Controller::order(const JointSettings &settings, const Feedback &feedback)
+double Controller::order(const JointSettings &settings, const JointTuning &tuning, const Feedback &feedback)
 {
     const double bound = pwmBound(settings);
     const double ampere = settings.currentUnit / 1000;
@@ -54,49 +63,55 @@ double Controller::order(const JointSettings &settings, const Feedback &feedback
     switch (settings.operatingMode) {
     case 0: {
         const double wanted = within(settings.goalCurrent * ampere, limit);
-        return current(wanted, std::abs(wanted), currentModeTime, feedback, bound);
+        return current(settings, wanted, std::abs(wanted), currentModeTime, feedback, bound);
     }
     case 1:
-        return velocity(settings, feedback, bound);
+        return velocity(settings, tuning, feedback, bound);
     case 5: {
         const double ceiling = std::min(limit, std::abs(settings.goalCurrent * ampere));
         if (ampere <= 0)
             return 0;
         // The position controller's output counts as raw current.
-        const double wanted = position(settings, feedback, ceiling / ampere) * ampere;
-        return current(wanted, ceiling, currentPositionTime, feedback, bound);
+        const double wanted = position(settings, tuning, feedback, ceiling / ampere) * ampere;
+        return current(settings, wanted, ceiling, currentPositionTime, feedback, bound);
     }
     case 16:
         return within(settings.goalPwm, bound);
     default:
-        return position(settings, feedback, bound);
+        return position(settings, tuning, feedback, bound);
     }
 }
 
-double Controller::position(const JointSettings &settings, const Feedback &feedback, double bound)
+double Controller::position(const JointSettings &settings, const JointTuning &tuning, const Feedback &feedback,
+                            double bound)
 {
-    const double error = feedback.wanted.position - feedback.position;
+    const double unit = settings.positionGain / (tuning.positionErrorUnit > 0 ? tuning.positionErrorUnit : 1);
+    const double loop = std::max(1, tuning.loopTime); // ms: rates are per loop
+    const double error = (feedback.wanted.position - feedback.position) * unit;
     m_integral = within(m_integral + error * settings.positionI / positionIScale, bound);
     return within(error * settings.positionP / positionPScale + m_integral
-                      + (feedback.wanted.velocity - feedback.velocity) * settings.positionD / positionDScale
-                      + feedback.wanted.velocity * settings.feedforward1 / feedforwardScale
-                      + feedback.wanted.acceleration * settings.feedforward2 / feedforwardScale,
+                      + (feedback.wanted.velocity - feedback.velocity) * unit * loop * settings.positionD / positionDScale
+                      + feedback.wanted.velocity * unit * loop * settings.feedforward1 / feedforwardScale
+                      + feedback.wanted.acceleration * unit * loop * loop * settings.feedforward2 / feedforwardScale,
                   bound);
 }
 
-double Controller::velocity(const JointSettings &settings, const Feedback &feedback, double bound)
+double Controller::velocity(const JointSettings &settings, const JointTuning &tuning, const Feedback &feedback,
+                            double bound)
 {
     if (settings.velocityUnit <= 0)
         return 0;
-    const double raw = 60000 / m_resolution / settings.velocityUnit; // per pulse/ms
+    const double count = tuning.velocityErrorUnit > 0 ? tuning.velocityErrorUnit : 1;
+    const double raw = 60000.0 / settings.resolution / settings.velocityUnit / count; // per pulse/ms
     const double error = (feedback.wanted.velocity - feedback.velocity) * raw;
-    m_integral = within(m_integral + error * settings.velocityI / velocityIScale, bound);
-    return within(error * settings.velocityP / velocityPScale + m_integral, bound);
+    m_integral = within(m_integral + error * settings.velocityIGain * settings.velocityI / velocityIScale, bound);
+    return within(error * settings.velocityPGain * settings.velocityP / velocityPScale + m_integral, bound);
 }
 
-double Controller::current(double wanted, double ceiling, double integralTime, const Feedback &feedback, double bound)
+double Controller::current(const JointSettings &settings, double wanted, double ceiling, double integralTime,
+                           const Feedback &feedback, double bound)
 {
-    const double perVolt = fullPwm / std::max(1.0, feedback.voltage);
+    const double perVolt = settings.fullPwm / std::max(1.0, feedback.voltage);
     const double error = (wanted - feedback.current) * m_resistance * perVolt;
     // What keeps the current below its ceiling at this speed, also while braking. The last PWM and the current it brought
     // tell back-EMF a few milliseconds before the velocity estimate does.

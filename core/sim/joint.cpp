@@ -3,44 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace dynascope::sim {
 
 namespace {
 
-constexpr double pi = 3.14159265358979;
-constexpr double resolution = 4096; ///< pulses per turn, of all X servos
-constexpr double pulsesPerRadian = resolution / (2 * pi);
-
-constexpr double tickSeconds = 0.001; ///< the controllers' loop
+constexpr double tickSeconds = 0.001; ///< a step of the supply
 constexpr int substeps = 2;
-
-/// Share of the new in the velocity estimate each tick: a filter of about 5 ms. Chosen.
-constexpr double velocityShare = 0.18;
-
-/// rev/min² per unit of Profile Acceleration, manual: "Profile Acceleration".
-constexpr double accelerationUnit = 214.577;
 
 constexpr int heatPeriod = 100; ///< ticks between two reckonings of the temperatures
 constexpr double roomTemperature = 25;
+constexpr double voltsOfRest = 0.001; ///< a change of the supply that a resting joint feels
 
-// Chosen, pulses: Moving Status bits 0 and 3, which the manual describes without figures.
-constexpr double inPosition = 20, following = 200;
-
-// Chosen: more than this share of the data sheet's stall current, for so many ticks, is an overload.
-constexpr double overloadShare = 0.6;
-constexpr int overloadDelay = 1000;
-
-std::int32_t toRegister(double pulses)
+std::optional<double> radians(std::optional<double> degrees)
 {
-    // Past 32 bits the register wraps round, as a counter does.
-    const double bounded = std::clamp(pulses, -9e18, 9e18);
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::llround(bounded)));
-}
-
-int rounded(double value, double limit)
-{
-    return static_cast<int>(std::lround(std::clamp(value, -limit, limit)));
+    return degrees ? std::optional(*degrees * std::numbers::pi / 180) : std::nullopt;
 }
 
 } // namespace
@@ -48,66 +26,133 @@ int rounded(double value, double limit)
 Joint::Joint(const MotorModel &motor, std::uint64_t seed)
     : m_plant(motor)
     , m_warmth(motor, roomTemperature)
-    , m_controller(motor, resolution)
+    , m_controller(motor)
+    , m_own(motor.voltage)
     , m_seed(seed)
+    , m_volts(motor.voltage)
+    , m_restVolts(motor.voltage)
 {
-    m_plant.setAngle(pi); // the middle of the range, 2048 pulses
+    m_plant.setAngle(std::numbers::pi); // the middle of the range, 2048 pulses
     hold();
+}
+
+const JointTuning &Joint::tuning() const
+{
+    static const JointTuning usual;
+    return m_tuning ? *m_tuning : usual;
+}
+
+void Joint::beginAt(std::int64_t microseconds)
+{
+    m_tick = m_origin = m_start = microseconds / 1000;
+    m_own.beginAt(m_tick);
+}
+
+void Joint::share(Supply *supply)
+{
+    if (m_shared)
+        m_shared->remove(*this);
+    m_shared = supply;
+    if (supply)
+        supply->add(*this);
+    else
+        m_own.beginAt(m_tick);
+    wake();
 }
 
 void Joint::advanceTo(std::int64_t microseconds)
 {
-    const std::int64_t target = microseconds / 1000;
-    while (m_tick < target) {
-        if (m_resting) {
-            heat(target - m_tick);
-            m_tick = target;
-            return;
-        }
-        tick();
-    }
+    Joint *self = this;
+    if (m_shared)
+        m_shared->advance(m_shared->joints(), microseconds / 1000);
+    else
+        m_own.advance({&self, 1}, microseconds / 1000);
 }
 
-void Joint::tick()
+/// The controllers, before the step.
+void Joint::control()
 {
-    const double sign = direction();
     const Controller before = m_controller;
     const double pwmBefore = m_pwm;
-    const int overloadBefore = m_overloadTicks;
-
-    m_pwm = 0;
     const bool freeOrder = m_settings.operatingMode == 0 || m_settings.operatingMode == 16;
-    if (m_torque && !(m_stopped && freeOrder)) {
+    const bool loop = m_tick % std::max(1, tuning().loopTime) == 0;
+    if (!m_torque || (m_stopped && freeOrder)) {
+        m_pwm = 0;
+    } else if (loop) {
         Feedback feedback;
         feedback.position = present();
-        feedback.velocity = sign * m_velocity;
-        feedback.current = sign * m_plant.current();
-        feedback.voltage = m_plant.terminalVoltage();
+        feedback.velocity = direction() * m_velocity;
+        feedback.current = direction() * m_plant.current();
+        feedback.voltage = m_volts;
         feedback.wanted = trajectory();
-        m_pwm = m_controller.pwm(m_settings, feedback);
+        m_pwm = m_controller.pwm(m_settings, tuning(), feedback);
     }
-    for (int i = 0; i < substeps; ++i)
-        m_plant.step(tickSeconds / substeps, sign * m_pwm / Controller::fullPwm, m_torque);
+    m_changing = !loop || m_pwm != pwmBefore || m_controller != before;
+}
 
-    m_velocity += (m_plant.speed() * pulsesPerRadian / 1000 - m_velocity) * velocityShare;
-    if (m_plant.speed() == 0 && std::abs(m_velocity) < 1e-4)
+/// duty² / R of the winding is what the bridge shows to the supply; back-EMF takes from it.
+Joint::Draw Joint::draw() const
+{
+    if (!m_powered)
+        return {};
+    Draw draw{0, 0, m_plant.motor().standbyCurrent};
+    if (m_torque) {
+        draw.conductance = duty() * duty() / m_plant.resistance();
+        draw.feedback = duty() * m_plant.backEmf() * m_plant.speed() / m_plant.resistance();
+    }
+    return draw;
+}
+
+double Joint::supplyCurrent() const
+{
+    const Draw own = draw();
+    return own.conductance * m_volts - own.feedback + own.standby;
+}
+
+void Joint::feel(double volts)
+{
+    m_volts = volts;
+    if (std::abs(volts - m_restVolts) > voltsOfRest)
+        wake();
+}
+
+void Joint::move()
+{
+    const int overloadBefore = m_overloadTicks;
+    const bool pushed = m_plant.load().changesByItself();
+    for (int i = 0; i < substeps; ++i)
+        m_plant.step(tickSeconds / substeps, duty(), m_volts, m_torque);
+    m_plant.load().passTime(tickSeconds);
+    // The share of the new makes a filter of that time constant.
+    const double share = 1 / (0.5 + std::max(0.5, tuning().velocityFilter));
+    m_velocity += (m_plant.speed() * pulsesPerRadian() / 1000 - m_velocity) * share;
+    if (m_plant.speed() == 0 && std::abs(m_velocity) < 2.4e-8 * m_settings.resolution)
         m_velocity = 0;
     watchLoad();
     heat(1);
     ++m_tick;
-    m_resting = m_velocity == 0 && m_plant.speed() == 0 && m_pwm == pwmBefore && m_controller == before
-        && m_overloadTicks == overloadBefore && !profileOngoing();
+    m_restVolts = m_volts;
+    m_resting = m_velocity == 0 && m_plant.speed() == 0 && !m_changing && m_overloadTicks == overloadBefore
+                && !profileOngoing() && !pushed;
+}
+
+void Joint::rest(std::int64_t ticks)
+{
+    heat(ticks);
+    m_tick += ticks;
 }
 
 void Joint::watchLoad()
 {
-    const bool heavy = std::abs(m_plant.current()) > overloadShare * m_plant.motor().stallCurrent;
-    m_overloadTicks = std::clamp(m_overloadTicks + (heavy ? 1 : -1), 0, overloadDelay);
+    const bool heavy = std::abs(m_plant.current()) > m_plant.motor().overloadCurrent;
+    const int longest = static_cast<int>(tamed(tuning().overloadTime, 1e8));
+    m_overloadTicks = std::clamp(m_overloadTicks + (heavy ? 1 : -1), 0, std::max(1, longest));
 }
 
 void Joint::heat(std::int64_t ticks)
 {
-    const double copper = m_plant.copperPower(), body = m_plant.bodyPower();
+    const double standby = m_powered ? m_volts * m_plant.motor().standbyCurrent : 0.0;
+    const double copper = m_plant.copperPower(), body = m_plant.frictionPower() + standby;
     while (ticks > 0) {
         const auto part = static_cast<int>(std::min<std::int64_t>(ticks, heatPeriod - m_heatTicks));
         m_copperHeat += copper * part;
@@ -133,15 +178,18 @@ void Joint::hold()
     m_ramp = VelocityRamp();
     m_start = m_tick;
     m_stopped = false;
-    m_resting = false;
+    wake();
 }
 
 void Joint::configure(const JointSettings &settings)
 {
     const JointSettings old = m_settings;
     m_settings = settings;
-    m_resting = false;
-    if (old.operatingMode != settings.operatingMode || (old.driveMode & 1) != (settings.driveMode & 1))
+    m_settings.resolution = std::max(1, settings.resolution);
+    m_settings.fullPwm = settings.fullPwm > 0 ? settings.fullPwm : 1;
+    wake();
+    if (old.operatingMode != settings.operatingMode || (old.driveMode & 1) != (settings.driveMode & 1)
+        || old.resolution != settings.resolution)
         hold();
     if (old.goalPwm != settings.goalPwm || old.goalCurrent != settings.goalCurrent)
         m_stopped = false;
@@ -151,11 +199,21 @@ void Joint::configure(const JointSettings &settings)
 
 void Joint::setTorque(bool on)
 {
+    on = on && m_powered;
     if (m_torque == on)
         return;
     m_torque = on;
     m_pwm = 0;
+    m_plant.letGo();
     hold();
+}
+
+void Joint::setPowered(bool powered)
+{
+    m_powered = powered;
+    if (!powered)
+        setTorque(false);
+    wake();
 }
 
 void Joint::setGoalPosition(std::int32_t pulses)
@@ -171,7 +229,7 @@ void Joint::setGoalVelocity(int raw)
 {
     if (!m_torque || m_settings.operatingMode != 1)
         return;
-    m_ramp = VelocityRamp(trajectory().velocity, raw * m_settings.velocityUnit * resolution / 60000, limits());
+    m_ramp = VelocityRamp(trajectory().velocity, raw * m_settings.velocityUnit * m_settings.resolution / 60000, limits());
     m_start = m_tick;
     m_stopped = m_resting = false;
 }
@@ -184,124 +242,45 @@ void Joint::stopMotion()
 
 void Joint::reduceToOneTurn()
 {
-    const double turns = std::floor(present() / resolution);
-    m_plant.turnBack(direction() * turns * 2 * pi);
-    m_profile.shift(-turns * resolution);
-}
-
-double Joint::present() const
-{
-    return direction() * std::round(m_plant.angle() * pulsesPerRadian);
-}
-
-double Joint::presentVelocity() const
-{
-    return direction() * m_velocity * 60000 / resolution / std::max(1e-6, m_settings.velocityUnit);
-}
-
-TrajectoryPoint Joint::trajectory() const
-{
-    const auto since = static_cast<double>(m_tick - m_start);
-    if (m_torque && positionMode())
-        return m_profile.at(since);
-    if (m_torque && m_settings.operatingMode == 1)
-        return {present(), m_ramp.at(since), 0};
-    return {present(), 0, 0};
-}
-
-ProfileLimits Joint::limits() const
-{
-    ProfileLimits limits;
-    limits.timeBased = m_settings.driveMode & 4;
-    limits.velocity = std::max(0, m_settings.profileVelocity);
-    limits.acceleration = std::max(0, m_settings.profileAcceleration);
-    if (!limits.timeBased) {
-        limits.velocity *= m_settings.velocityUnit * resolution / 60000;
-        limits.acceleration *= accelerationUnit * resolution / (60000.0 * 60000.0);
-    }
-    return limits;
-}
-
-bool Joint::profileOngoing() const
-{
-    const auto since = static_cast<double>(m_tick - m_start);
-    if (!m_torque)
-        return false;
-    return positionMode() ? since < m_profile.duration()
-                          : m_settings.operatingMode == 1 && since < m_ramp.duration();
-}
-
-std::uint8_t Joint::movingStatus() const
-{
-    unsigned status = profileOngoing() ? 2 : 0;
-    if (m_torque && positionMode()) {
-        if (std::abs(m_profile.goal() - present()) <= inPosition)
-            status |= 1;
-        if (std::abs(trajectory().position - present()) > following)
-            status |= 8;
-        status |= static_cast<unsigned>(m_profile.shape()) << 4;
-    }
-    return static_cast<std::uint8_t>(status);
-}
-
-/// −1, 0 or 1, mostly 0; of the moment, so that asking more often doesn't change what comes.
-int Joint::noise(std::uint64_t channel) const
-{
-    std::uint64_t x = m_seed * 0x9E3779B97F4A7C15u + static_cast<std::uint64_t>(m_tick) * 4 + channel;
-    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-    switch ((x >> 61) & 7) {
-    case 0: return -1;
-    case 1: return 1;
-    default: return 0;
-    }
-}
-
-JointState Joint::state() const
-{
-    const TrajectoryPoint wanted = trajectory();
-    const double rawPerVelocity = 60000 / resolution / std::max(1e-6, m_settings.velocityUnit);
-    const double milliamperes = direction() * m_plant.current() * 1000;
-
-    JointState state;
-    state.position = toRegister(present());
-    state.velocity = rounded(presentVelocity(), 1e9) + (m_velocity != 0 ? noise(0) : 0);
-    state.current = rounded(milliamperes / std::max(1e-6, m_settings.currentUnit), 32767) + (m_torque ? noise(1) : 0);
-    state.pwm = rounded(m_pwm, Controller::fullPwm);
-    // As XL430 gives it; that it is the share of the stall current is chosen.
-    state.load = rounded(milliamperes / m_plant.motor().stallCurrent, 1000);
-    state.positionTrajectory = toRegister(wanted.position);
-    state.velocityTrajectory = rounded(wanted.velocity * rawPerVelocity, 1e9);
-    state.moving = std::abs(state.velocity) > m_settings.movingThreshold || profileOngoing();
-    state.movingStatus = movingStatus();
-    state.inputVoltage = rounded(m_plant.terminalVoltage() * 10, 1000);
-    state.temperature = rounded(m_warmth.body(), 1000);
-    state.overload = m_overloadTicks >= overloadDelay;
-    return state;
+    const double turns = std::floor(present() / m_settings.resolution);
+    m_plant.turnBack(direction() * turns * 2 * std::numbers::pi);
+    m_profile.shift(-turns * m_settings.resolution);
 }
 
 void Joint::setLoadTorque(double newtonMetres)
 {
-    m_plant.setLoadTorque(newtonMetres);
-    m_resting = false;
+    m_plant.load().setTorque(newtonMetres);
+    wake();
 }
 
-void Joint::setGravityArm(double newtonMetresAtHorizontal)
+void Joint::setGravityArm(double newtonMetres)
 {
-    m_plant.setGravityArm(newtonMetresAtHorizontal);
-    m_resting = false;
+    m_plant.load().setGravityArm(newtonMetres);
+    wake();
 }
 
 void Joint::setExtraInertia(double kilogramSquareMetres)
 {
-    m_plant.setExtraInertia(kilogramSquareMetres);
-    m_resting = false;
+    m_plant.load().setInertia(kilogramSquareMetres);
+    wake();
 }
 
-void Joint::setSupplyVoltage(double volts)
+void Joint::setStops(std::optional<double> lowest, std::optional<double> highest)
 {
-    m_plant.setSupplyVoltage(volts);
-    m_resting = false;
+    m_plant.load().setStops(radians(lowest), radians(highest));
+    wake();
+}
+
+void Joint::push(double newtonMetres, double seconds)
+{
+    m_plant.load().push(newtonMetres, seconds);
+    wake();
+}
+
+void Joint::hold(std::optional<double> degrees)
+{
+    m_plant.load().hold(radians(degrees));
+    wake();
 }
 
 void Joint::setAmbientTemperature(double celsius)
@@ -311,7 +290,7 @@ void Joint::setAmbientTemperature(double celsius)
 
 void Joint::setShaftAngle(double degrees)
 {
-    m_plant.setAngle(degrees * pi / 180);
+    m_plant.setAngle(degrees * std::numbers::pi / 180);
     m_velocity = 0;
     hold();
 }

@@ -74,6 +74,10 @@ struct LineFaults {
     std::vector<ReplyFault> replies{};
     std::vector<int> silent{};             ///< IDs that hear and obey, but don't answer
     std::vector<int> deaf{};               ///< IDs that do neither; several: a dead segment
+    LineTime replyJitter{}; ///< replies begin later by anything up to this, each anew
+    /// Inside a request, by a program on a terminal: what its host may be blamed for. The devices drop a packet with a gap
+    /// of more than 1.5 ms.
+    LineTime bridgedGap = std::chrono::milliseconds(20);
     bool unplugged = false;                ///< the adapter is out of its socket
     std::optional<int> unplugAtSent{};     ///< from this byte of the requests on nothing leaves: it is pulled out then
     std::optional<int> unplugAtAnswered{}; ///< it is pulled out as this byte of the replies would be handed on

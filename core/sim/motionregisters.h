@@ -17,7 +17,7 @@ public:
     Joint &joint() { return m_joint; }
     const Joint &joint() const { return m_joint; }
 
-    void beginAt(LineTime now) { m_origin = now; }
+    void beginAt(LineTime now);
     void advanceTo(LineTime now);
     void configure();            ///< settings and limits from the registers
     void setTorque(bool on);     ///< Torque Enable has become `on`
@@ -25,19 +25,27 @@ public:
     void takeGoalVelocity();
     void holdStill();            ///< Bus Watchdog
     void bringIntoOneTurn();     ///< forget whole turns; where that happens: manual, "Present Position"
-    void changeMode();           ///< what a write to Operating Mode puts back
+    void changeMode();           ///< what a new Operating Mode puts back
     void publish();              ///< Present registers, Moving, trajectories: as of the last advanceTo()
     std::int32_t presentPosition() const;
+    int operatingMode() const;   ///< as the X series counts them, also where the model calls it Control Mode
 
 private:
-    std::int32_t homingOffset() const;
-    std::int32_t toPresent(std::int32_t ofJoint) const { return ofJoint - m_turns + homingOffset(); }
-    std::int32_t toJoint(std::int32_t present) const { return present - homingOffset() + m_turns; }
+    JointSettings gains() const;
+    void setBounds(JointSettings &settings) const;
+    void setProfile(JointSettings &settings) const;
+    void setUnits(JointSettings &settings) const;
+    double startAngle() const;
+    std::int64_t homingOffset() const;
+    // Past 32 bits they wrap round, as counters do.
+    std::int32_t toPresent(std::int64_t ofJoint) const { return std::int32_t(ofJoint - m_turns + homingOffset()); }
+    std::int32_t toJoint(std::int64_t present) const { return std::int32_t(present - homingOffset() + m_turns); }
 
     RegisterFile &m_registers;
     Joint m_joint;
-    LineTime m_origin{};      ///< the joint's time 0
-    std::int32_t m_turns = 0; ///< pulses of the whole turns forgotten
+    bool m_xGains;            ///< gains mean what the X series' manual says
+    std::int64_t m_statusMask = 0xFF; ///< bits that Moving Status has
+    std::int64_t m_turns = 0; ///< pulses of the whole turns forgotten
 };
 
 } // namespace dynascope::sim

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> Header{0xFF, 0xFF, 0xFD, 0x00};
 constexpr std::size_t LengthAt = 5;
-constexpr LineTime Patience = std::chrono::milliseconds(20); ///< a busy host's, not the wire's 1.5 ms
 
 bool mayBeginPacket(ByteView bytes)
 {
@@ -38,7 +37,7 @@ std::optional<Bytes> PacketAssembler::next(LineTime now)
         if (known && plausible && m_buffer.size() >= size)
             return take(size);
         if (plausible)
-            return now >= m_fed + Patience ? std::optional(take(m_buffer.size())) : std::nullopt;
+            return now >= m_fed + m_patience ? std::optional(take(m_buffer.size())) : std::nullopt;
     }
     std::size_t noise = 1;
     while (noise < m_buffer.size() && !mayBeginPacket(ByteView(m_buffer).subspan(noise)))
@@ -48,7 +47,7 @@ std::optional<Bytes> PacketAssembler::next(LineTime now)
 
 std::optional<LineTime> PacketAssembler::deadline() const
 {
-    return m_buffer.empty() ? std::nullopt : std::optional(m_fed + Patience);
+    return m_buffer.empty() ? std::nullopt : std::optional(m_fed + m_patience);
 }
 
 Bytes PacketAssembler::take(std::size_t bytes)

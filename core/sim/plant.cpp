@@ -8,11 +8,11 @@ namespace dynascope::sim {
 
 namespace {
 
-/// Numbers from outside: a value that is none becomes 0, a monstrous one is cut, so that nothing here can overflow.
-double tame(double value, double limit)
-{
-    return std::isfinite(value) ? std::clamp(value, -limit, limit) : 0.0;
-}
+/// Contacts are stiff: the stall torque dents them by one degree. Chosen.
+constexpr double DentOfStallTorque = 0.017453292519943295; // rad
+
+/// What stands, or all but stands, is held by more dry friction than what moves. Chosen.
+constexpr double Stiction = 1.3, Creeping = 0.002; // of the dry friction; rad/s
 
 } // namespace
 
@@ -28,6 +28,11 @@ Warmth::Warmth(const MotorModel &motor, double ambient)
 {
 }
 
+void Warmth::setAmbient(double celsius)
+{
+    m_ambient = std::max(-273.0, tamed(celsius, 1000));
+}
+
 void Warmth::step(double seconds, double winding, double body)
 {
     // Implicit Euler of the two equations, solved for the case first.
@@ -41,76 +46,64 @@ void Warmth::step(double seconds, double winding, double body)
 
 Plant::Plant(const MotorModel &motor)
     : m_motor(motor)
-    , m_terminal(motor.voltage)
-    , m_supply(motor.voltage)
-    , m_inertia(motor.inertia)
+    , m_load(motor.stallTorque / DentOfStallTorque)
     , m_resistance(motor.resistance())
     , m_torqueConstant(motor.torqueConstant())
     , m_backEmf(motor.backEmf())
 {
-    settleSupply(0, false);
 }
 
-void Plant::step(double seconds, double duty, bool driven)
+void Plant::step(double seconds, double duty, double volts, bool driven)
 {
-    // A bridge that is on draws duty × current from the supply, so the supply's resistance acts as duty² of it.
-    const double resistance = m_resistance + supplyResistance * duty * duty;
-    double push = m_load, drag = m_motor.viscous;
+    // What depends on the angle is taken in the middle of the step.
+    const Load::Effect load = m_load.at(m_angle + m_speed * seconds / 2, m_speed, inertia());
+    double push = load.torque, drag = load.drag + m_motor.viscous;
     if (driven) {
-        push += m_torqueConstant * duty * m_supply / resistance;
-        drag += m_torqueConstant * m_backEmf / resistance;
+        push += m_torqueConstant * duty * volts / m_resistance;
+        drag += m_torqueConstant * m_backEmf / m_resistance;
     }
-    if (m_gravity != 0)
-        push -= m_gravity * std::cos(m_angle);
-
-    const double inertia = m_inertia / seconds;
-    const double free = (inertia * m_speed + push) / (inertia + drag);
-    // Dry friction takes away as much speed as it can, and holds what it can stop.
-    const double grip = m_motor.coulomb / (inertia + drag);
-    const double speed = std::abs(free) <= grip ? 0.0 : free - std::copysign(grip, free);
-    m_angle += speed * seconds;
-    m_speed = speed;
-    m_current = driven ? (duty * m_supply - m_backEmf * speed) / resistance : 0.0;
-    settleSupply(duty, driven);
+    move(push, drag, seconds);
+    m_current = driven ? (duty * volts - m_backEmf * m_speed) / m_resistance : 0.0;
 }
 
-void Plant::settleSupply(double duty, bool driven)
+/// inertia × speed' = push − drag × speed, less dry friction, which also holds what it can stop.
+void Plant::move(double push, double drag, double seconds)
 {
-    const double drawn = (driven ? duty * m_current : 0.0) + m_motor.standbyCurrent;
-    m_terminal = m_supply - supplyResistance * drawn;
+    constexpr double Undamped = 1e-9; // rate × time below which a straight line is as good
+    const double rate = drag / inertia();
+    for (int part = 0; part < 2; ++part) { // dry friction turns round where the motion does
+        if (std::abs(m_speed) < Creeping && std::abs(push) <= Stiction * m_motor.coulomb) {
+            m_speed = 0;
+            return;
+        }
+        const double sign = m_speed != 0 ? std::copysign(1.0, m_speed) : std::copysign(1.0, push);
+        const double net = push - sign * m_motor.coulomb;
+        const bool damped = rate * seconds > Undamped;
+        const double settled = damped ? net / drag : 0.0;
+        const double decay = damped ? std::exp(-rate * seconds) : 1.0;
+        const double speed = damped ? settled + (m_speed - settled) * decay : m_speed + net / inertia() * seconds;
+        if (speed * sign >= 0) {
+            m_angle += damped ? settled * seconds + (m_speed - settled) * (1 - decay) / rate
+                              : (m_speed + speed) / 2 * seconds;
+            m_speed = speed;
+            return;
+        }
+        const double until = damped ? std::log((m_speed - settled) / -settled) / rate : -m_speed * inertia() / net;
+        m_angle += damped ? settled * until + m_speed / rate : m_speed / 2 * until;
+        m_speed = 0;
+        seconds -= std::clamp(until, 0.0, seconds);
+    }
 }
 
-double Plant::bodyPower() const
+double Plant::frictionPower() const
 {
-    const double friction = (m_motor.coulomb + m_motor.viscous * std::abs(m_speed)) * std::abs(m_speed);
-    return friction + m_supply * m_motor.standbyCurrent;
+    return (m_motor.coulomb + m_motor.viscous * std::abs(m_speed)) * std::abs(m_speed);
 }
 
 void Plant::setAngle(double radians)
 {
-    m_angle = tame(radians, 1e9);
+    m_angle = tamed(radians, 1e9);
     m_speed = 0;
-}
-
-void Plant::setLoadTorque(double newtonMetres)
-{
-    m_load = tame(newtonMetres, 1000);
-}
-
-void Plant::setGravityArm(double newtonMetres)
-{
-    m_gravity = tame(newtonMetres, 1000);
-}
-
-void Plant::setExtraInertia(double kilogramSquareMetres)
-{
-    m_inertia = m_motor.inertia + std::max(0.0, tame(kilogramSquareMetres, 1000));
-}
-
-void Plant::setSupplyVoltage(double volts)
-{
-    m_supply = std::max(0.0, tame(volts, 100));
-    settleSupply(0, false);
 }
 
 } // namespace dynascope::sim

@@ -39,6 +39,15 @@ bool makeRaw(int descriptor)
     return tcsetattr(descriptor, TCSANOW, &settings) == 0;
 }
 
+/// A link that a simulator left behind does, though the terminal may be gone.
+bool leadsToTerminal(const QByteArray &link)
+{
+    constexpr std::array<char, 9> folder{'/', 'd', 'e', 'v', '/', 'p', 't', 's', '/'};
+    std::array<char, 128> target{};
+    const ssize_t size = readlink(link.constData(), target.data(), target.size());
+    return size > static_cast<ssize_t>(folder.size()) && std::equal(folder.begin(), folder.end(), target.begin());
+}
+
 } // namespace
 
 Result<std::unique_ptr<PseudoTerminal>> PseudoTerminal::open(const QString &link)
@@ -76,8 +85,12 @@ Result<void> PseudoTerminal::makeLink(const QString &link)
 {
     const QByteArray name = QFile::encodeName(link);
     struct stat found = {};
-    if (lstat(name.constData(), &found) == 0 && !S_ISLNK(found.st_mode))
+    const bool exists = lstat(name.constData(), &found) == 0;
+    if (exists && !S_ISLNK(found.st_mode))
         return failure(ErrorKind::InvalidArgument, QStringLiteral("%1 exists and is not a symbolic link").arg(link));
+    if (exists && !leadsToTerminal(name))
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("%1 exists and leads to something else than a pseudo-terminal").arg(link));
     // Replaced in one step: whoever opens it finds the old or the new one.
     const QByteArray fresh = name + ".new" + QByteArray::number(getpid());
     const QByteArray target = QFile::encodeName(m_path);

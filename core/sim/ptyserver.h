@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/sim/pacing.h"
 #include "core/sim/simulatedbus.h"
 
 #include <QString>
@@ -16,9 +17,12 @@ class PtyServer
 {
 public:
     /// The bus belongs to the server's thread from now on. `link`: also a symbolic link there, removed at the end; an
-    /// existing one is replaced only if it is a symbolic link. `onTick` runs on that thread about every 10 ms.
+    /// existing one is replaced only if it leads to a pseudo-terminal, as one does that was left behind. `onTick` runs on
+    /// that thread about every 10 ms. `onPacing` too, with a sentence when the machine falls behind the wire's pace or
+    /// keeps up again.
     static Result<std::unique_ptr<PtyServer>> start(std::unique_ptr<SimulatedBus> bus, const QString &link = {},
-                                                    std::function<void(SimulatedBus &, LineTime)> onTick = {});
+                                                    std::function<void(SimulatedBus &, LineTime)> onTick = {},
+                                                    std::function<void(const QString &)> onPacing = {});
     ~PtyServer();
 
     /// Of the terminal a client opens: "/dev/pts/7". Unplugged by the bus's faults, it is gone; plugged in again, it
@@ -29,6 +33,13 @@ public:
     void post(std::function<void(SimulatedBus &, LineTime now)> change);
     /// As post(), and waits for it. Not from the server's own thread. For tests and control channels.
     void call(std::function<void(SimulatedBus &, LineTime now)> change);
+
+    /// How it goes. On the server's thread only: in what post() and call() run.
+    struct State {
+        QString path; ///< of the terminal now; empty while it is unplugged
+        Pacing::Report pacing;
+    };
+    State state() const;
 
 private:
     PtyServer();

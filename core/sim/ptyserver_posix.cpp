@@ -39,10 +39,11 @@ class PtyServer::Worker
 {
 public:
     Worker(std::unique_ptr<SimulatedBus> bus, std::unique_ptr<PseudoTerminal> terminal, QString link,
-           Change onTick, int wake)
+           Change onTick, std::function<void(const QString &)> onPacing, int wake)
         : m_bus(std::move(bus))
         , m_terminal(std::move(terminal))
         , m_onTick(std::move(onTick))
+        , m_onPacing(std::move(onPacing))
         , m_path(m_terminal->path())
         , m_link(std::move(link))
         , m_wake(wake)
@@ -60,6 +61,7 @@ public:
     }
 
     const QString &path() const { return m_path; }
+    State state() const { return {m_terminal ? m_terminal->path() : QString(), m_pacing.report()}; }
 
     void post(Change change)
     {
@@ -90,6 +92,8 @@ private:
     std::unique_ptr<PseudoTerminal> m_terminal; ///< null while the bus's adapter is unplugged
     PacketAssembler m_assembler;
     Change m_onTick;
+    std::function<void(const QString &)> m_onPacing;
+    Pacing m_pacing;
     LineTime m_nextTick{};
     const QString m_path, m_link;
     const int m_wake; ///< an eventfd
@@ -150,8 +154,9 @@ void PtyServer::Worker::hearClient(LineTime now)
     const Bytes bytes = m_terminal->read();
     if (!bytes.empty())
         m_assembler.feed(bytes, now);
+    m_assembler.setPatience(m_bus->faults().bridgedGap);
     while (const auto packet = m_assembler.next(now))
-        m_bus->send(*packet, now, m_terminal->baudRate());
+        m_bus->send(*packet, m_assembler.fedAt(), m_terminal->baudRate());
 }
 
 void PtyServer::Worker::answerClient(LineTime now)
@@ -160,8 +165,14 @@ void PtyServer::Worker::answerClient(LineTime now)
     if (!m_terminal)
         return m_bus->discardArrived(now);
     m_bus->receive(reply, now, m_terminal->baudRate());
-    if (!reply.empty() && m_terminal->hasClient())
-        m_terminal->write(reply);
+    if (reply.empty() || !m_terminal->hasClient())
+        return;
+    m_terminal->write(reply);
+    if (m_bus->quietAt())
+        return; // a piece of it
+    const LineTime at = wallTime();
+    const auto [first, last] = m_bus->arrived();
+    m_pacing.handedOn(std::min(last, first + LongestPiece), at);
 }
 
 void PtyServer::Worker::tick(LineTime now)
@@ -171,6 +182,8 @@ void PtyServer::Worker::tick(LineTime now)
     m_bus->advanceTo(now);
     if (m_onTick)
         m_onTick(*m_bus, now);
+    if (const auto news = m_pacing.news(now); news && m_onPacing)
+        m_onPacing(*news);
     m_nextTick = now + (m_onTick ? TickPeriod : IdlePeriod);
 }
 
@@ -210,7 +223,8 @@ PtyServer::PtyServer() = default;
 PtyServer::~PtyServer() = default;
 
 Result<std::unique_ptr<PtyServer>> PtyServer::start(std::unique_ptr<SimulatedBus> bus, const QString &link,
-                                                    std::function<void(SimulatedBus &, LineTime)> onTick)
+                                                    std::function<void(SimulatedBus &, LineTime)> onTick,
+                                                    std::function<void(const QString &)> onPacing)
 {
     auto terminal = PseudoTerminal::open(link);
     if (!terminal)
@@ -219,8 +233,14 @@ Result<std::unique_ptr<PtyServer>> PtyServer::start(std::unique_ptr<SimulatedBus
     if (wake < 0)
         return failure(ErrorKind::PortUnsuitable, QStringLiteral("The simulator needs more open files than allowed"));
     std::unique_ptr<PtyServer> server(new PtyServer);
-    server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), link, std::move(onTick), wake);
+    server->m_worker = std::make_unique<Worker>(std::move(bus), std::move(*terminal), link, std::move(onTick),
+                                                std::move(onPacing), wake);
     return server;
+}
+
+PtyServer::State PtyServer::state() const
+{
+    return m_worker->state();
 }
 
 QString PtyServer::path() const

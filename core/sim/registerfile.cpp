@@ -6,19 +6,8 @@
 namespace dynascope::sim {
 namespace {
 
-constexpr std::array<const char16_t *, static_cast<std::size_t>(Reg::Count)> Names{
-    u"Model Number", u"Firmware Version", u"ID", u"Baud Rate", u"Return Delay Time", u"Drive Mode", u"Operating Mode",
-    u"Secondary ID", u"Protocol Type", u"Homing Offset", u"Moving Threshold", u"Temperature Limit",
-    u"Max Voltage Limit", u"Min Voltage Limit", u"PWM Limit", u"Current Limit", u"Velocity Limit",
-    u"Max Position Limit", u"Min Position Limit", u"Startup Configuration", u"Shutdown", u"Torque Enable", u"LED",
-    u"Status Return Level", u"Registered Instruction", u"Hardware Error Status", u"Velocity I Gain",
-    u"Velocity P Gain", u"Position D Gain", u"Position I Gain", u"Position P Gain", u"Feedforward 2nd Gain",
-    u"Feedforward 1st Gain", u"Bus Watchdog", u"Goal PWM", u"Goal Current", u"Goal Velocity",
-    u"Profile Acceleration", u"Profile Velocity", u"Goal Position", u"Realtime Tick", u"Moving", u"Moving Status",
-    u"Present PWM", u"Present Current", u"Present Load", u"Present Velocity", u"Present Position",
-    u"Velocity Trajectory", u"Position Trajectory", u"Present Input Voltage", u"Present Temperature",
-    u"Backup Ready",
-};
+// What gains are at power-up where no table says. Chosen: those of XM430.
+constexpr std::int64_t UsualPositionP = 800, UsualVelocityP = 100, UsualVelocityI = 1920;
 
 } // namespace
 
@@ -28,8 +17,8 @@ RegisterFile::RegisterFile(ControlTablePtr table)
     , m_indirectFor(m_covering.size(), nullptr)
     , m_image(m_covering.size(), 0)
 {
-    for (std::size_t i = 0; i < Names.size(); ++i)
-        m_known[i] = m_table->find(QStringView(Names[i]));
+    for (std::size_t i = 0; i < m_known.size(); ++i)
+        m_known[i] = findRegister(*m_table, static_cast<Reg>(i));
     const QString data = QStringLiteral("Indirect Data ");
     for (const Field &field : m_table->fields()) {
         std::fill(m_covering.begin() + field.address, m_covering.begin() + field.end(), &field);
@@ -38,8 +27,9 @@ RegisterFile::RegisterFile(ControlTablePtr table)
                 = m_table->find(QStringLiteral("Indirect Address ") + field.name.mid(data.size()));
     }
     resetEeprom();
-    resetRam();
     set(Reg::ModelNumber, m_table->modelNumber());
+    m_kept = m_image;
+    resetRam();
 }
 
 std::int64_t RegisterFile::get(Reg reg) const
@@ -57,7 +47,21 @@ void RegisterFile::set(Reg reg, std::int64_t value)
 std::int64_t RegisterFile::initial(Reg reg) const
 {
     const Field *known = field(reg);
-    return known ? known->initial.value_or(0) : 0;
+    return known ? initialOf(*known) : 0;
+}
+
+std::int64_t RegisterFile::initialOf(const Field &field) const
+{
+    if (field.initial)
+        return *field.initial;
+    const std::pair<Reg, std::int64_t> usual[] = {{Reg::PositionPGain, UsualPositionP},
+                                                  {Reg::VelocityPGain, UsualVelocityP},
+                                                  {Reg::VelocityIGain, UsualVelocityI}};
+    for (const auto &gain : usual) {
+        if (&field == this->field(gain.first))
+            return std::min(gain.second, field.maximum.number.value_or(gain.second));
+    }
+    return 0;
 }
 
 std::int64_t RegisterFile::get(const Field &field) const
@@ -127,7 +131,7 @@ std::vector<const Field *> RegisterFile::fieldsIn(const Run &run) const
     return fields;
 }
 
-DeviceError RegisterFile::check(const Run &run, DeviceError limitError) const
+DeviceError RegisterFile::check(const Run &run, const Refusals &refusals) const
 {
     const int end = run.address + static_cast<int>(run.data.size());
     for (int at = run.address; at < end; ++at) {
@@ -135,28 +139,39 @@ DeviceError RegisterFile::check(const Run &run, DeviceError limitError) const
         if (!field || !field->isWritable())
             return DeviceError::Access;
     }
-    for (const Field *field : fieldsIn(run)) {
-        if (field->address < run.address || field->end() > end)
+    const std::vector<const Field *> fields = fieldsIn(run);
+    for (const Field *field : fields) {
+        if (field->address < run.address)
+            return refusals.misaligned;
+        if (field->end() > end)
             return DeviceError::DataLength;
     }
-    for (const Field *field : fieldsIn(run)) {
+    for (const Field *field : fields) {
         const auto offset = static_cast<std::size_t>(field->address - run.address);
         const ByteView bytes = ByteView(run.data).subspan(offset, field->size);
-        const DeviceError error = checkValue(*field, rawFromBytes(*field, bytes), limitError);
+        const DeviceError error = checkValue(*field, rawFromBytes(*field, bytes), refusals.beyondLimit);
         if (error != DeviceError::None)
             return error;
     }
     return DeviceError::None;
 }
 
+/// Named values are the only ones; a pointer leads into RAM, or where nothing stands.
+bool RegisterFile::isAllowed(const Field &field, std::int64_t raw) const
+{
+    if (!field.values.empty() && std::ranges::find(field.values, raw, &EnumValue::value) == field.values.end())
+        return false;
+    if (&field == this->field(Reg::BaudRate))
+        return m_table->baudRate(static_cast<int>(raw)).has_value();
+    if (!field.name.startsWith(u"Indirect Address"))
+        return true;
+    const Field *target = raw >= 0 && raw < m_table->size() ? covering(static_cast<int>(raw)) : nullptr;
+    return !target || target->area != Area::Eeprom;
+}
+
 DeviceError RegisterFile::checkValue(const Field &field, std::int64_t raw, DeviceError limitError) const
 {
-    if (&field == this->field(Reg::OperatingMode)) {
-        const auto &modes = m_table->description().operatingModes;
-        if (!modes.empty() && std::ranges::find(modes, static_cast<int>(raw)) == modes.end())
-            return DeviceError::DataRange;
-    }
-    if (&field == this->field(Reg::BaudRate) && !m_table->baudRate(static_cast<int>(raw)))
+    if (!isAllowed(field, raw))
         return DeviceError::DataRange;
     const auto lookup = [this](QStringView name) -> std::optional<std::int64_t> {
         const Field *other = m_table->find(name);
@@ -173,28 +188,49 @@ DeviceError RegisterFile::checkValue(const Field &field, std::int64_t raw, Devic
 
 void RegisterFile::resetEeprom()
 {
-    const std::int64_t model = get(Reg::ModelNumber);
-    const std::int64_t firmware = get(Reg::FirmwareVersion);
-    resetArea(true);
-    set(Reg::ModelNumber, model);
-    set(Reg::FirmwareVersion, firmware);
+    for (const Field &field : m_table->fields()) {
+        const bool ofTheModel = &field == this->field(Reg::ModelNumber) || &field == this->field(Reg::FirmwareVersion);
+        if (isKept(field) && !ofTheModel)
+            set(field, initialOf(field));
+    }
 }
 
 void RegisterFile::resetRam()
 {
     const std::int64_t backup = get(Reg::BackupReady); // the backup is kept in flash
-    resetArea(false);
+    for (const Field &field : m_table->fields()) {
+        if (field.area == Area::Ram)
+            set(field, initialOf(field));
+        else if (field.area == Area::Hybrid)
+            set(field, rawFromBytes(field, ByteView(m_kept).subspan(field.address, field.size)));
+    }
     set(Reg::BackupReady, backup);
-    set(Reg::GoalPwm, get(Reg::PwmLimit));
-    set(Reg::GoalCurrent, get(Reg::CurrentLimit));
+    for (const auto &goal : {std::pair(Reg::GoalPwm, Reg::PwmLimit), std::pair(Reg::GoalCurrent, Reg::CurrentLimit)}) {
+        const Field *known = field(goal.first);
+        if (known && !known->initial)
+            set(*known, get(goal.second));
+    }
 }
 
-void RegisterFile::resetArea(bool eeprom)
+void RegisterFile::keep(const Field &field, ByteView value)
+{
+    if (isKept(field) && value.size() == field.size)
+        std::ranges::copy(value, m_kept.begin() + field.address);
+}
+
+void RegisterFile::keepAll()
+{
+    for (const Field &field : m_table->fields())
+        keep(field, bytes(field));
+}
+
+void RegisterFile::losePower()
 {
     for (const Field &field : m_table->fields()) {
-        if ((field.area == Area::Ram) != eeprom)
-            set(field, field.initial.value_or(0));
+        if (isKept(field))
+            set(field, rawFromBytes(field, ByteView(m_kept).subspan(field.address, field.size)));
     }
+    resetRam();
 }
 
 } // namespace dynascope::sim

@@ -10,10 +10,8 @@ using namespace std::chrono_literals;
 
 constexpr LineTime LongestGap = 1500us; ///< inside a packet; manual: "communication overview"
 constexpr LineTime WatchdogUnit = 20ms;
-constexpr LineTime LongestStep = 20ms;  ///< how late a fault may be noticed
 constexpr std::int64_t WatchdogTripped = -1;
-constexpr std::int64_t TickPeriod = 32768;
-constexpr int TorqueOnAtStartup = 1, RamFromBackup = 2; ///< bits of Startup Configuration
+constexpr std::int64_t UsualTickPeriod = 32768;
 
 /// No two servos come up in the same moment; their Realtime Ticks differ.
 LineTime bootSpread(std::uint64_t seed)
@@ -24,20 +22,22 @@ LineTime bootSpread(std::uint64_t seed)
     return std::chrono::microseconds((x ^ (x >> 31)) % Most);
 }
 
-enum HardwareError { InputVoltage = 0x01, Overheating = 0x04, Overload = 0x20 };
-
 } // namespace
 
 Servo::Servo(ControlTablePtr table, const MotorModel &motor, const Identity &identity, std::uint64_t seed)
     : m_registers(std::move(table))
     , m_motion(m_registers, motor, seed)
+    , m_errors(m_registers)
     , m_baudRate(identity.baudRate)
     , m_bootSpread(bootSpread(seed))
 {
     m_registers.set(Reg::FirmwareVersion, identity.firmware);
     m_registers.set(Reg::Id, identity.id);
     m_registers.set(Reg::BaudRate, this->table().baudCode(identity.baudRate).value_or(0));
+    m_registers.keepAll();
     m_registers.set(Reg::GoalPosition, m_motion.presentPosition());
+    m_motion.joint().useTuning(&m_settings.control);
+    m_motion.joint().setWatch([this](std::int64_t at) { watch(std::chrono::milliseconds(at)); });
 }
 
 void Servo::beginAt(LineTime now)
@@ -49,85 +49,90 @@ void Servo::beginAt(LineTime now)
 
 void Servo::advanceTo(LineTime now)
 {
-    while (m_now < now) {
-        m_now = std::min(now, m_now + LongestStep);
-        m_motion.advanceTo(m_now);
-        watch();
-    }
+    m_motion.advanceTo(now);
+    m_now = std::max(m_now, now);
+    if (m_torqueAtBoot && m_now >= m_deafUntil)
+        setTorque(true);
 }
 
-void Servo::watch()
+/// Every 10 ms of the joint's clock.
+void Servo::watch(LineTime at)
+{
+    m_now = std::max(m_now, at);
+    const JointState state = m_motion.joint().state();
+    if (const Field *lowest = m_registers.field(Reg::MinVoltageLimit)) {
+        const double needed = static_cast<double>(m_registers.initial(Reg::MinVoltageLimit)) * lowest->scale;
+        m_brownOut = m_motion.joint().supply().isOn() && state.inputVoltage < m_settings.brownOut * needed;
+    }
+    updatePower(at);
+    if (!m_powered)
+        return;
+    watchBus(at);
+    watchFaults(state);
+    if (m_torqueAtBoot && m_now >= m_deafUntil)
+        setTorque(true);
+}
+
+void Servo::watchFaults(const JointState &state)
+{
+    const auto raise = [this](HardwareFault fault) {
+        if (m_errors.latch(fault))
+            shutDown();
+    };
+    const auto beyond = [this](Reg reg, double value, double sign) {
+        const Field *field = m_registers.field(reg);
+        return field && sign * value > sign * static_cast<double>(m_registers.get(*field)) * field->scale;
+    };
+    if (beyond(Reg::MaxVoltageLimit, state.inputVoltage, 1) || beyond(Reg::MinVoltageLimit, state.inputVoltage, -1))
+        raise(HardwareFault::InputVoltage);
+    if (beyond(Reg::TemperatureLimit, state.temperature, 1))
+        raise(HardwareFault::Overheating);
+    if (state.overload)
+        raise(HardwareFault::Overload);
+}
+
+void Servo::watchBus(LineTime at)
 {
     const std::int64_t units = m_registers.get(Reg::BusWatchdog);
-    const bool torque = m_motion.joint().torque();
-    if (torque && units > 0 && m_now - m_instructedLast > units * WatchdogUnit) {
-        m_registers.set(Reg::BusWatchdog, WatchdogTripped);
-        m_registers.set(Reg::ProfileVelocity, 0);
-        m_registers.set(Reg::ProfileAcceleration, 0);
-        m_motion.configure();
-        m_motion.holdStill();
-    }
-    const JointState state = m_motion.joint().state();
-    int found = 0;
-    if (m_registers.has(Reg::MaxVoltageLimit)
-        && (state.inputVoltage > m_registers.get(Reg::MaxVoltageLimit)
-            || state.inputVoltage < m_registers.get(Reg::MinVoltageLimit)))
-        found |= InputVoltage;
-    if (m_registers.has(Reg::TemperatureLimit) && state.temperature > m_registers.get(Reg::TemperatureLimit))
-        found |= Overheating;
-    if (state.overload)
-        found |= Overload;
-    if (found)
-        setHardwareError(static_cast<std::uint8_t>(found));
+    if (!m_motion.joint().torque() || units <= 0 || at - m_instructedLast <= units * WatchdogUnit)
+        return;
+    m_registers.set(Reg::BusWatchdog, WatchdogTripped);
+    m_registers.set(Reg::ProfileVelocity, 0);
+    m_registers.set(Reg::ProfileAcceleration, 0);
+    m_motion.configure();
+    m_motion.holdStill();
+}
+
+bool Servo::inject(HardwareFault fault)
+{
+    if (!m_errors.knows(fault))
+        return false;
+    if (m_errors.latch(fault))
+        shutDown();
+    return true;
 }
 
 void Servo::setHardwareError(std::uint8_t bits)
 {
-    m_registers.set(Reg::HardwareErrorStatus, m_registers.get(Reg::HardwareErrorStatus) | bits);
-    if ((m_registers.get(Reg::Shutdown) & bits) == 0 || m_shutDown)
+    if (m_errors.latchBits(bits))
+        shutDown();
+}
+
+void Servo::shutDown()
+{
+    if (m_shutDown)
         return;
     m_shutDown = true;
     setTorque(false);
-}
-
-void Servo::setPlugged(bool plugged)
-{
-    boot(m_now);
-    if (!plugged)
-        m_deafUntil = LineTime::max();
-}
-
-void Servo::boot(LineTime at)
-{
-    m_restart = false;
-    m_deafUntil = at + m_settings.bootTime;
-    m_bootedAt = m_deafUntil + m_bootSpread;
-    m_instructedLast = m_deafUntil;
-    m_shutDown = false;
-    m_registered.reset();
-    m_parser.reset();
-    m_registers.resetRam();
-    m_baudRate = table().baudRate(static_cast<int>(m_registers.get(Reg::BaudRate))).value_or(m_baudRate);
-    const std::int64_t startup = m_registers.get(Reg::StartupConfiguration);
-    if ((startup & RamFromBackup) && m_backup) {
-        for (const Field &field : table().fields()) {
-            if (field.area == Area::Ram && field.isWritable() && &field != m_registers.field(Reg::TorqueEnable))
-                m_registers.set(field, rawFromBytes(field, ByteView(*m_backup).subspan(field.address, field.size)));
-        }
-    }
-    m_motion.setTorque(false);
-    m_motion.configure();
-    m_motion.bringIntoOneTurn();
-    m_registers.set(Reg::GoalPosition, m_motion.presentPosition());
-    if (startup & TorqueOnAtStartup)
-        setTorque(true);
 }
 
 void Servo::refresh()
 {
     m_motion.publish();
     const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(std::max(m_now - m_bootedAt, LineTime{}));
-    m_registers.set(Reg::RealtimeTick, since.count() % TickPeriod);
+    const Field *tick = m_registers.field(Reg::RealtimeTick);
+    const std::int64_t period = tick ? tick->maximum.number.value_or(UsualTickPeriod - 1) + 1 : UsualTickPeriod;
+    m_registers.set(Reg::RealtimeTick, since.count() % std::max<std::int64_t>(1, period));
     m_registers.set(Reg::RegisteredInstruction, m_registered ? 1 : 0);
 }
 
@@ -162,9 +167,14 @@ bool Servo::hear(ByteView bytes, LineTime begin, LineTime byteTime, std::vector<
 
 std::int64_t Servo::value(QStringView name)
 {
-    refresh();
     const Field *field = table().find(name);
-    return field ? m_registers.get(*field) : 0;
+    return field ? value(*field) : 0;
+}
+
+std::int64_t Servo::value(const Field &field)
+{
+    refresh();
+    return m_registers.get(field);
 }
 
 DeviceError Servo::write(QStringView name, std::int64_t value)
@@ -174,8 +184,10 @@ DeviceError Servo::write(QStringView name, std::int64_t value)
         return DeviceError::Access;
     const Bytes data = bytesFromRaw(*field, value);
     const DeviceError error = checkWrite(field->address, data, Address::Own);
-    if (error == DeviceError::None)
-        applyWrite(field->address, data);
+    if (error != DeviceError::None)
+        return error;
+    applyWrite(field->address, data);
+    m_eeprom.begin(m_registers, eepromIn(field->address, data), m_now, {});
     return error;
 }
 

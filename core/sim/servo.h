@@ -2,68 +2,56 @@
 #pragma once
 
 #include "core/protocol/parser.h"
-#include "core/protocol/requests.h"
+#include "core/sim/eepromwrites.h"
+#include "core/sim/hardwareerrors.h"
 #include "core/sim/motionregisters.h"
+#include "core/sim/reaction.h"
 #include "core/sim/servosettings.h"
 
 #include <functional>
 
 namespace dynascope::sim {
 
-/// What a servo wants to say to an instruction packet; when, the bus knows.
-struct Reaction {
-    enum class Turn {
-        Direct, ///< `delay` after the packet
-        Slot,   ///< in the order of IDs: broadcast Ping
-        Chain,  ///< after the device listed before it: group reads
-    };
-    Turn turn = Turn::Direct;
-    LineTime heardAt{}; ///< the packet's last bit
-    LineTime delay{};   ///< processing and Return Delay Time
-    int baudRate = 57600;
-    StatusPacket status;
-    GroupReadCommand group{}; ///< with Chain
-    std::size_t index = 0;    ///< with Chain: our place in group.spans
-};
-
 /// One virtual servo: its control table, and what it does with instructions. Hears bytes, says what it would answer;
 /// knows no wire. Owned by the bus, on the bus's thread.
 class Servo
 {
 public:
-    struct Identity {
-        int firmware = 0;
-        int id = 1;
-        int baudRate = 57600;
-    };
+    using Identity = ServoIdentity;
     Servo(ControlTablePtr table, const MotorModel &motor, const Identity &identity, std::uint64_t seed);
     const QString &model() const { return m_registers.table().model(); }
     const ControlTable &table() const { return m_registers.table(); }
     int firmware() const { return static_cast<int>(m_registers.get(Reg::FirmwareVersion)); }
     int id() const { return static_cast<int>(m_registers.get(Reg::Id)); }
     int baudRate() const { return m_baudRate; }
-    bool hasAlert() const { return m_registers.get(Reg::HardwareErrorStatus) != 0; }
+    bool hasAlert() const { return m_errors.isAlert(); }
     bool isDeaf(LineTime now) const { return now < m_deafUntil; }
+    bool isPowered() const { return m_powered; }
     ServoSettings &settings() { return m_settings; }
     Joint &joint() { return m_motion.joint(); } ///< load, supply, starting position
-
+    LineTime now() const { return m_now; }
     void beginAt(LineTime now);   ///< what lies before was nothing; once, before anything else
     void advanceTo(LineTime now); ///< motion, watchdog, faults; never goes back
-
     /// Bytes, the first bit at `begin`. Appends what it would answer; true where an instruction packet was among them.
     bool hear(ByteView bytes, LineTime begin, LineTime byteTime, std::vector<Reaction> &reactions);
 
     /// @name Past the wire: for scripts and tests
     /// @{
-    std::int64_t value(QStringView name);                    ///< as of the last advanceTo(); 0 where there is none
-    DeviceError write(QStringView name, std::int64_t value); ///< with all checks and effects of a Write
-    void setHardwareError(std::uint8_t bits);                ///< as if it had happened: Alert, Shutdown
-    void powerCycle() { boot(m_now); }                       ///< deaf while it boots
-    void setPlugged(bool plugged);                           ///< without its cable: no power, nobody hears
+    std::int64_t value(QStringView name); ///< as of the last advanceTo(); 0 where there is none
+    std::int64_t value(const Field &field);
+    DeviceError write(QStringView name, std::int64_t value); ///< with all checks and effects of a Write, stored at once
+    bool inject(HardwareFault fault);         ///< as if it had happened; false where the model doesn't know it
+    void setHardwareError(std::uint8_t bits); ///< the same, by the bits of Hardware Error Status
+    void powerCycle();                        ///< deaf while it boots
+    void setPower(bool on);                   ///< its own switch
+    void setPlugged(bool plugged);            ///< without its cable: no power, nobody hears
+    void followSupply();                      ///< the supply was turned on or off
+    void setOtherAxis(const Servo *other) { m_otherAxis = other; } ///< of a two-axis model: one lock of the EEPROM
+    const HardwareErrors &errors() const { return m_errors; }
+    bool isShutDown() const { return m_shutDown; } ///< by Shutdown; the LED blinks
     /// @}
 
-    /// After each write that came by the wire and was obeyed.
-    using WriteObserver = std::function<void(Servo &, int address, ByteView data)>;
+    using WriteObserver = std::function<void(Servo &, int address, ByteView data)>; ///< obeyed, and by the wire
     void setWriteObserver(WriteObserver observer) { m_observer = std::move(observer); }
 
 private:
@@ -82,6 +70,8 @@ private:
     Outcome carryOut(const FactoryResetCommand &command, Address how);
     Outcome carryOut(const ClearCommand &command);
     Outcome carryOut(const BackupCommand &command);
+    Outcome clearError();
+    void storeEverything();
     Outcome readOut(int address, int length);
     Outcome takeWrite(const WriteCommand &command, Address how);
     Outcome actOnRegistered();
@@ -92,27 +82,36 @@ private:
     LineTime returnDelay() const;
 
     // servowrites.cpp
+    struct Before;
     DeviceError checkWrite(int address, ByteView data, Address how) const;
-    bool touchesEeprom(int address, ByteView data) const;
+    std::vector<const Field *> eepromIn(int address, ByteView data) const;
     void applyWrite(int address, ByteView data);
-    void afterWrite(const std::vector<const Field *> &fields, bool torqueBefore);
+    void afterWrite(const std::vector<const Field *> &fields, const Before &before);
+    void saveHybrid();
     void afterGoal(Reg goal);
     void setTorque(bool on);
-
-    // servo.cpp
+    // servo.cpp, servopower.cpp
+    void watch(LineTime at);
+    void watchBus(LineTime at);
+    void watchFaults(const JointState &state);
+    void shutDown();
     void boot(LineTime at);
-    void watch();
+    void updatePower(LineTime at);
+    void losePower(LineTime at);
     void refresh(); ///< live registers
 
     RegisterFile m_registers;
     MotionRegisters m_motion;
+    HardwareErrors m_errors;
+    EepromWrites m_eeprom;
     ServoSettings m_settings;
     Parser m_parser;
     int m_baudRate;
     LineTime m_bootSpread; ///< its Realtime Tick begins so much later than it hears
     LineTime m_now{}, m_heardLast{}, m_instructedLast{}, m_deafUntil{}, m_bootedAt{};
-    bool m_shutDown = false; ///< by Shutdown: no torque until it boots
-    bool m_restart = false;  ///< boots as soon as the answer is made
+    bool m_shutDown = false, m_restart = false; ///< no torque until it boots; boots as soon as the answer is made
+    bool m_torqueAtBoot = false, m_powered = true, m_plugged = true, m_switchedOn = true, m_brownOut = false;
+    const Servo *m_otherAxis = nullptr;
     std::optional<WriteCommand> m_registered;
     std::optional<Bytes> m_backup;
     WriteObserver m_observer;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int FirstDisabledSecondaryId = 253;
 constexpr int BroadcastResetIgnoredFrom = 42; ///< firmware
-constexpr int ClearFrom = 42;                 ///< firmware of MX(2.0)
+constexpr int ClearFrom = 42;                 ///< firmware of X and MX(2.0)
 constexpr std::int64_t OurProtocol = 2;
 constexpr LineTime ReturnDelayUnit = std::chrono::microseconds(2);
 constexpr std::size_t IdAt = 4;
@@ -52,7 +52,8 @@ bool Servo::supports(const Command &command) const
         return table().hasBackup(firmware());
     if (std::holds_alternative<ClearCommand>(command)) {
         const QString &series = table().description().series;
-        return series == u"X" || (series == u"MX(2.0)" && firmware() >= ClearFrom);
+        const bool counted = series == u"X" || series == u"MX(2.0)"; // they count firmware alike
+        return (counted && firmware() >= ClearFrom) || series == u"P" || series == u"Y";
     }
     return true;
 }
@@ -162,7 +163,7 @@ Servo::Outcome Servo::carryOut(const Command &command, Address how)
     if (const auto *clear = std::get_if<ClearCommand>(&command))
         return carryOut(*clear);
     if (const auto *backup = std::get_if<BackupCommand>(&command))
-        return carryOut(*backup);
+        return how == Address::Secondary ? Outcome() : carryOut(*backup);
     m_restart = true; // Reboot
     Outcome outcome;
     outcome.silent = !m_settings.answersReboot;
@@ -193,9 +194,12 @@ Servo::Outcome Servo::takeWrite(const WriteCommand &command, Address how)
         m_registered = command;
         return outcome;
     }
-    if (touchesEeprom(command.address, command.data))
-        outcome.extra = m_settings.eepromWrite;
+    const std::vector<const Field *> eeprom = eepromIn(command.address, command.data);
     applyWrite(command.address, command.data);
+    if (!eeprom.empty()) {
+        outcome.extra = m_settings.eepromWrite;
+        m_eeprom.begin(m_registers, eeprom, m_now, m_settings.eepromWrite);
+    }
     if (m_observer)
         m_observer(*this, command.address, command.data);
     return outcome;
@@ -226,18 +230,31 @@ Servo::Outcome Servo::carryOut(const FactoryResetCommand &command, Address how)
         m_registers.set(Reg::Id, keptId);
     if (command.option == ResetOption::AllButIdAndBaud)
         m_registers.set(Reg::BaudRate, keptBaud);
+    storeEverything();
     outcome.extra = m_settings.eepromWrite;
     m_restart = true;
     return outcome;
 }
 
+/// After all of the EEPROM was written.
+void Servo::storeEverything()
+{
+    std::vector<const Field *> eeprom;
+    for (const Field &field : table().fields()) {
+        if (field.area == Area::Eeprom)
+            eeprom.push_back(&field);
+        else
+            m_registers.keep(field, m_registers.bytes(field));
+    }
+    m_eeprom.begin(m_registers, eeprom, m_now, m_settings.eepromWrite);
+}
+
 Servo::Outcome Servo::carryOut(const ClearCommand &command)
 {
     Outcome outcome;
-    refresh();
-    if (command.option == ClearOption::Error) // for the Y series alone
-        outcome.error = DeviceError::DataRange;
-    else if (m_registers.get(Reg::Moving) != 0)
+    if (command.option == ClearOption::Error)
+        return clearError();
+    if (m_motion.joint().state().moving)
         outcome.error = DeviceError::ResultFail;
     if (outcome.error != DeviceError::None)
         return outcome;
@@ -249,6 +266,20 @@ Servo::Outcome Servo::carryOut(const ClearCommand &command)
     return outcome;
 }
 
+/// The Y series alone has it; an error whose cause lasts comes back.
+Servo::Outcome Servo::clearError()
+{
+    Outcome outcome;
+    if (!m_registers.has(Reg::ErrorCode)) {
+        outcome.error = DeviceError::DataRange;
+        return outcome;
+    }
+    m_errors.clear();
+    m_shutDown = false;
+    outcome.extra = m_settings.clearTime;
+    return outcome;
+}
+
 Servo::Outcome Servo::carryOut(const BackupCommand &command)
 {
     Outcome outcome;
@@ -256,15 +287,16 @@ Servo::Outcome Servo::carryOut(const BackupCommand &command)
     const bool restore = command.option == BackupOption::Restore;
     if (m_motion.joint().torque() || (restore && !m_backup)) {
         outcome.error = DeviceError::ResultFail;
-    } else if (restore) {
-        Bytes image = *m_backup;
-        m_registers.setImage(std::move(image));
-        m_registers.set(Reg::BackupReady, 1);
+        return outcome;
+    }
+    if (restore) {
+        m_registers.setImage(*m_backup);
+        storeEverything();
         m_restart = true;
     } else {
         m_backup = m_registers.image();
-        m_registers.set(Reg::BackupReady, 1);
     }
+    m_registers.set(Reg::BackupReady, 1);
     return outcome;
 }
 

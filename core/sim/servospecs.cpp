@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/protocol/protocol_values.h"
-#include "core/sim/simulatedbus.h"
+#include "core/sim/servospec.h"
 
 #include <QStringList>
 
@@ -12,43 +12,70 @@ tl::unexpected<Error> wrong(QStringView entry, const QString &why)
     return failure(ErrorKind::InvalidArgument, QStringLiteral("\"%1\": %2").arg(entry.toString(), why));
 }
 
+bool isId(int id)
+{
+    return id >= 0 && id <= MaximumId;
+}
+
 Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
 {
     const qsizetype colon = entry.lastIndexOf(u':');
     const qsizetype at = entry.lastIndexOf(u'@');
     if (at < 1 || colon < at)
-        return wrong(entry, QStringLiteral("a device is written MODEL[/FIRMWARE]@BAUD:ID, as in XM430-W350@57600:1"));
+        return wrong(entry,
+                     QStringLiteral("a device is written MODEL[/FIRMWARE]@BAUD:ID[+ID2], as in XM430-W350@57600:1"));
     const QStringView device = entry.first(at);
     const qsizetype slash = device.lastIndexOf(u'/');
-    const QStringView model = slash < 0 ? device : device.first(slash);
-    const Catalog::ModelInfo *info = catalog.model(model);
-    if (!info)
-        return wrong(entry, QStringLiteral("no model is called %1").arg(model.toString()));
     ServoSpec spec;
-    spec.model = info->model;
+    spec.model = (slash < 0 ? device : device.first(slash)).toString();
     bool ok = true;
     if (slash >= 0)
         spec.firmware = device.sliced(slash + 1).toInt(&ok);
     if (!ok || spec.firmware < -1 || spec.firmware > 255)
         return wrong(entry, QStringLiteral("the firmware is a number from 0 to 255"));
     spec.baudRate = entry.sliced(at + 1, colon - at - 1).toInt(&ok);
-    const ControlTablePtr table = catalog.find(info->modelNumber, slash < 0 ? info->newestFirmware : spec.firmware);
-    if (!table)
-        return wrong(entry, QStringLiteral("no table of %1 is known for that firmware").arg(info->model));
-    if (!ok || !table->baudCode(spec.baudRate)) {
-        QStringList rates;
-        for (const BaudCode &code : table->description().baudCodes)
-            rates.append(QString::number(code.rate));
-        return wrong(entry,
-                     QStringLiteral("the rates of %1 are %2").arg(info->model, rates.join(QStringLiteral(", "))));
-    }
-    spec.id = entry.sliced(colon + 1).toInt(&ok);
-    if (!ok || spec.id < 0 || spec.id > MaximumId)
+    if (!ok)
+        spec.baudRate = 0; // no model has it: the message lists those it has
+    const QList<QStringView> ids = entry.sliced(colon + 1).split(u'+');
+    bool secondOk = true;
+    spec.id = ids[0].toInt(&ok);
+    if (ids.size() > 1)
+        spec.secondId = ids[1].toInt(&secondOk);
+    if (!ok || !secondOk || ids.size() > 2 || !isId(spec.id) || (ids.size() == 2 && !isId(spec.secondId)))
         return wrong(entry, QStringLiteral("the ID is a number from 0 to %1").arg(MaximumId));
+    if (const auto good = checkServoSpec(spec, catalog); !good)
+        return wrong(entry, good.error().text);
     return spec;
 }
 
 } // namespace
+
+Result<void> checkServoSpec(ServoSpec &spec, const Catalog &catalog)
+{
+    const Catalog::ModelInfo *info = catalog.model(QStringView(spec.model));
+    if (!info)
+        return failure(ErrorKind::NotFound, QStringLiteral("no model is called %1").arg(spec.model));
+    spec.model = info->model;
+    const ControlTablePtr table = catalog.find(info->modelNumber, spec.firmware < 0 ? info->newestFirmware
+                                                                                    : spec.firmware);
+    if (!table)
+        return failure(ErrorKind::NotFound, QStringLiteral("no table of %1 is known for that firmware").arg(info->model));
+    if (!table->baudCode(spec.baudRate)) {
+        QStringList rates;
+        for (const BaudCode &code : table->description().baudCodes)
+            rates.append(QString::number(code.rate));
+        return failure(ErrorKind::InvalidArgument, QStringLiteral("the rates of %1 are %2")
+                                                       .arg(info->model, rates.join(QStringLiteral(", "))));
+    }
+    const int axes = table->description().axes;
+    if ((axes == 2) != (spec.secondId >= 0))
+        return failure(ErrorKind::InvalidArgument,
+                       axes == 2 ? QStringLiteral("%1 has two axes and needs two IDs").arg(info->model)
+                                 : QStringLiteral("%1 has one axis and takes one ID").arg(info->model));
+    if (axes == 2 && spec.id == spec.secondId)
+        return failure(ErrorKind::InvalidArgument, QStringLiteral("the two axes need different IDs"));
+    return {};
+}
 
 Result<std::vector<ServoSpec>> parseServoSpecs(QStringView text, const Catalog &catalog)
 {

@@ -5,6 +5,7 @@
 #include "core/sim/baudmismatch.h"
 #include "core/sim/groupreply.h"
 #include "core/sim/motor.h"
+#include "core/sim/power.h"
 #include "core/sim/replyspoiler.h"
 #include "core/sim/wire.h"
 
@@ -41,7 +42,8 @@ LineTime duration(const Reaction &reaction)
 SimulatedBus::SimulatedBus(const Catalog &catalog, std::uint64_t seed)
     : m_catalog(catalog)
     , m_seed(seed)
-    , m_wire(std::make_unique<Wire>(seed))
+    , m_power(std::make_unique<Power>())
+    , m_wire(std::make_unique<Wire>())
     , m_spoiler(std::make_unique<ReplySpoiler>())
     , m_adapter(std::make_unique<Adapter>())
 {
@@ -52,28 +54,55 @@ SimulatedBus::~SimulatedBus() = default;
 void SimulatedBus::beginAt(LineTime now)
 {
     m_now = m_controllerFree = now;
+    m_power->beginAt(now);
     for (const auto &servo : m_servos)
         servo->beginAt(now);
 }
 
-Result<Servo *> SimulatedBus::add(const ServoSpec &spec)
+Result<Servo *> SimulatedBus::add(const ServoSpec &wanted)
 {
+    ServoSpec spec = wanted;
+    if (const auto good = checkServoSpec(spec, m_catalog); !good)
+        return tl::unexpected(good.error());
     const Catalog::ModelInfo *info = m_catalog.model(QStringView(spec.model));
-    if (!info)
-        return failure(ErrorKind::NotFound, QStringLiteral("%1 is not a model the simulator knows").arg(spec.model));
     const int firmware = spec.firmware < 0 ? info->newestFirmware : spec.firmware;
-    ControlTablePtr table = m_catalog.find(info->modelNumber, firmware);
+    const ControlTablePtr table = m_catalog.find(info->modelNumber, firmware);
     const MotorModel *motor = findMotor(info->model);
-    if (!table || !motor)
+    if (!motor)
         return failure(ErrorKind::NotSupported, QStringLiteral("The simulator can't play %1").arg(info->model));
-    if (!table->baudCode(spec.baudRate))
-        return failure(ErrorKind::InvalidArgument,
-                       QStringLiteral("%1 has no rate of %2 bps").arg(info->model).arg(spec.baudRate));
-    m_seed += SeedStep;
-    m_servos.push_back(std::make_unique<Servo>(std::move(table), *motor,
-                                               Servo::Identity{firmware, spec.id, spec.baudRate}, m_seed));
-    m_servos.back()->beginAt(m_now);
-    return m_servos.back().get();
+    const std::size_t first = m_servos.size();
+    for (const int id : {spec.id, spec.secondId}) {
+        if (id < 0)
+            continue;
+        m_seed += SeedStep;
+        m_servos.push_back(
+            std::make_unique<Servo>(table, *motor, Servo::Identity{firmware, id, spec.baudRate}, m_seed));
+        m_servos.back()->beginAt(m_now);
+        m_power->connect(*m_servos.back(), m_now);
+    }
+    Servo *const servo = m_servos[first].get();
+    if (spec.secondId >= 0) {
+        Servo *const second = m_servos[first + 1].get();
+        servo->setOtherAxis(second);
+        second->setOtherAxis(servo);
+        m_twins.push_back({{servo, second}, spec.baudRate});
+    }
+    return servo;
+}
+
+/// Two axes are one device on the wire: a rate that one was told is the other's too.
+void SimulatedBus::shareBaudRates()
+{
+    for (Twins &twins : m_twins) {
+        for (std::size_t i = 0; i < 2; ++i) {
+            Servo &told = *twins.axes[i], &other = *twins.axes[1 - i];
+            if (told.baudRate() == twins.baudRate)
+                continue;
+            twins.baudRate = told.baudRate();
+            other.write(nameOf(Known::BaudRate), told.table().baudCode(twins.baudRate).value_or(0));
+            break;
+        }
+    }
 }
 
 Servo *SimulatedBus::servo(int id, int baudRate) const
@@ -112,6 +141,11 @@ void SimulatedBus::receive(Bytes &to, LineTime now, int baudRate)
     m_adapter->deliver(to, now);
 }
 
+std::pair<LineTime, LineTime> SimulatedBus::arrived() const
+{
+    return m_adapter->delivered();
+}
+
 void SimulatedBus::bringToAdapter(LineTime now)
 {
     m_heard.clear();
@@ -130,6 +164,7 @@ void SimulatedBus::setFaults(LineFaults faults)
     m_spoiler->setFaults(faults);
     m_adapter->setFaults(faults, m_now);
     m_wire->setEcho(faults.echo.on);
+    m_jitter = Chance(faults.seed ^ SeedStep);
     m_faults = std::move(faults);
 }
 
@@ -214,6 +249,7 @@ void SimulatedBus::hearController(const Transmission &sent)
         for (Reaction &reaction : reactions)
             all.emplace_back(servo.get(), std::move(reaction));
     }
+    shareBaudRates();
     plan(std::move(all));
 }
 
@@ -233,7 +269,7 @@ void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
         switch (reaction.turn) {
         case Reaction::Turn::Direct: {
             Scheduled reply;
-            reply.at = reaction.heardAt + reaction.delay;
+            reply.at = reaction.heardAt + reaction.delay + jitter();
             reply.servo = servo;
             reply.baudRate = reaction.baudRate;
             reply.bytes = encode(reaction.status);
@@ -251,6 +287,12 @@ void SimulatedBus::plan(std::vector<std::pair<Servo *, Reaction>> reactions)
         continueChain(chain, 0, chain->heardAt);
 }
 
+LineTime SimulatedBus::jitter()
+{
+    const auto most = static_cast<double>(m_faults.replyJitter.count());
+    return most > 0 ? LineTime(static_cast<LineTime::rep>(most * m_jitter.fraction())) : LineTime{};
+}
+
 void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
 {
     if (pings.empty())
@@ -262,7 +304,7 @@ void SimulatedBus::planPings(std::vector<std::pair<Servo *, Reaction>> pings)
     const std::vector<LineTime> times = pingTimes(pings.front().second.heardAt, turns);
     for (std::size_t i = 0; i < pings.size(); ++i) {
         Scheduled reply;
-        reply.at = times[i];
+        reply.at = times[i] + jitter();
         reply.servo = pings[i].first;
         reply.baudRate = pings[i].second.baudRate;
         reply.bytes = encode(pings[i].second.status);
@@ -293,7 +335,7 @@ void SimulatedBus::continueChain(const std::shared_ptr<Chain> &chain, std::size_
         if (member.index != index)
             continue;
         Scheduled reply;
-        reply.at = from + member.delay;
+        reply.at = from + member.delay + jitter();
         reply.servo = member.servo;
         reply.baudRate = member.baudRate;
         reply.bytes = chainBytes(*chain, index, member.status);
@@ -315,7 +357,7 @@ void SimulatedBus::hearServo(const Transmission &sent)
 
 void SimulatedBus::begin(Scheduled &reply)
 {
-    if (isAmong(m_faults.silent, *reply.servo) || isAmong(m_faults.deaf, *reply.servo))
+    if (!reply.servo->isPowered() || isAmong(m_faults.silent, *reply.servo) || isAmong(m_faults.deaf, *reply.servo))
         return;
     Transmission sent;
     sent.begin = reply.at;

@@ -3,15 +3,18 @@
 
 #include "core/bus/line.h"
 #include "core/result.h"
+#include "core/sim/chance.h"
 #include "core/sim/linefaults.h"
-#include "core/table/catalog.h"
+#include "core/sim/servospec.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace dynascope::sim {
 
 class Adapter;
+class Power;
 class ReplySpoiler;
 class Servo;
 class Wire;
@@ -19,19 +22,6 @@ struct HeardByte;
 struct Reaction;
 struct Transmission;
 struct Chain;
-
-/// One servo of a simulated bus: MODEL[/FIRMWARE]@BAUD:ID.
-struct ServoSpec {
-    QString model;
-    int firmware = -1; ///< −1: the newest the catalog knows
-    int baudRate = 57600;
-    int id = 1;
-
-    friend bool operator==(const ServoSpec &, const ServoSpec &) = default;
-};
-
-/// "XM430-W350@57600:1,XL330-M288/52@1000000:7"; the message names the entry that is wrong.
-Result<std::vector<ServoSpec>> parseServoSpecs(QStringView text, const Catalog &catalog);
 
 /// One entry of the wire's own log: bytes as they stood on the wire.
 struct WireEntry {
@@ -53,15 +43,18 @@ public:
     /// Where the clock of the calls stands, before anything is sent. Time starts at 0 otherwise.
     void beginAt(LineTime now);
 
-    Result<Servo *> add(const ServoSpec &spec);
+    Result<Servo *> add(const ServoSpec &spec); ///< of two axes, the first
     const std::vector<std::unique_ptr<Servo>> &servos() const { return m_servos; }
     Servo *servo(int id, int baudRate) const; ///< nullptr where there is none
+    Power &power() const { return *m_power; } ///< what feeds them
 
     /// The controller begins to send `bytes` at `begin`; its last bit leaves bytes × byte time later.
     void send(ByteView bytes, LineTime begin, int baudRate);
 
     /// Bytes that reach a controller listening at `baudRate` up to and including `now`, each once, appended to `to`.
     void receive(Bytes &to, LineTime now, int baudRate);
+    /// When the first and the last of those that the latest receive() brought were due.
+    std::pair<LineTime, LineTime> arrived() const;
     /// No byte comes before this moment, which is later than that of the last receive(); nothing where none is on
     /// its way. A later receive() may find that what was to come has been a device's silence.
     std::optional<LineTime> nextArrival() const;
@@ -95,15 +88,24 @@ private:
     void continueChain(const std::shared_ptr<Chain> &chain, std::size_t index, LineTime from);
     void begin(Scheduled &reply);
     void interrupt(const Servo *servo);
+    void shareBaudRates();
+    LineTime jitter();
 
     const Catalog &m_catalog;
     std::uint64_t m_seed;
     std::vector<std::unique_ptr<Servo>> m_servos;
+    struct Twins {
+        std::array<Servo *, 2> axes{};
+        int baudRate = 57600; ///< as both have had it
+    };
+    std::vector<Twins> m_twins;
+    std::unique_ptr<Power> m_power;
     std::unique_ptr<Wire> m_wire;
     std::vector<Scheduled> m_scheduled;
     std::vector<std::shared_ptr<Chain>> m_chains; ///< whose end nobody has heard yet
     LineTime m_now{}, m_controllerFree{};
     LineFaults m_faults;
+    Chance m_jitter{1};
     std::unique_ptr<ReplySpoiler> m_spoiler;
     std::unique_ptr<Adapter> m_adapter;
     int m_listening = 57600; ///< the controller's rate

@@ -14,6 +14,34 @@ LineTime arrival(const Transmission &transmission, std::size_t index)
     return transmission.begin + static_cast<LineTime::rep>(index + 1) * transmission.byteTime();
 }
 
+bool overlaps(const Transmission &transmission, std::size_t index, LineTime from, LineTime to)
+{
+    const LineTime whole = arrival(transmission, index);
+    return whole > from && whole - transmission.byteTime() < to;
+}
+
+/// What a UART that follows `one` makes of it while `other` pulls the wire low as well.
+void merge(Transmission &one, const Transmission &other, LineTime from, LineTime to)
+{
+    const double bit = static_cast<double>(one.byteTime().count()) / 10;
+    const double otherBit = static_cast<double>(other.byteTime().count()) / 10;
+    const auto begin = static_cast<double>((one.begin - other.begin).count());
+    for (std::size_t i = 0; i < one.bytes.size(); ++i) {
+        if (!overlaps(one, i, from, to))
+            continue;
+        std::uint8_t kept = 0xFF;
+        for (unsigned k = 0; k < 8; ++k) {
+            const double at = begin + (static_cast<double>(10 * i + 1 + k) + 0.5) * bit;
+            if (at >= 0 && !wireLevel(other.bytes, at / otherBit))
+                kept &= static_cast<std::uint8_t>(~(1U << k));
+        }
+        one.damaged = one.damaged || (one.bytes[i] & kept) != one.bytes[i];
+        one.bytes[i] &= kept;
+        if (!one.atAdapter.empty())
+            one.atAdapter[i] &= kept;
+    }
+}
+
 } // namespace
 
 void Wire::begin(Transmission transmission)
@@ -31,53 +59,39 @@ void Wire::begin(Transmission transmission)
 
 void Wire::collide(OnWire &first, OnWire &second)
 {
-    const LineTime bit = first.what.byteTime() / 10;
-    const LineTime apart = std::chrono::abs(first.what.begin - second.what.begin);
-    const bool together = first.what.sender && second.what.sender && apart < bit / 2
-                          && first.what.baudRate == second.what.baudRate;
-    if (!together) {
-        const LineTime from = std::max(first.what.begin, second.what.begin);
-        const LineTime to = std::min(first.what.end(), second.what.end());
-        scramble(first, from, to);
-        scramble(second, from, to);
-        // The controller hears one stream: the earlier one stands for both.
-        for (std::size_t i = 0; isHeard(first) && i < second.absorbed.size(); ++i) {
-            if (arrival(second.what, i) <= to + second.what.byteTime() / 2)
-                second.absorbed[i] = true;
-        }
-        return;
+    const LineTime from = std::max(first.what.begin, second.what.begin);
+    const LineTime to = std::min(first.what.end(), second.what.end());
+    const Transmission one = first.what, other = second.what; // as they were meant
+    merge(first.what, other, from, to);
+    merge(second.what, one, from, to);
+    // An adapter that hands no echo on doesn't listen while it sends.
+    const bool listens = m_echo || (one.sender && other.sender);
+    for (std::size_t i = 0; !listens && i < first.absorbed.size(); ++i)
+        first.absorbed[i] = first.absorbed[i] || overlaps(one, i, from, to);
+    // The controller hears one stream: the earlier one stands for both, and then what is left of the later one.
+    for (std::size_t i = 0; i < second.absorbed.size(); ++i) {
+        if (arrival(other, i) - other.byteTime() < to)
+            second.absorbed[i] = true;
     }
-    // Bit by bit at the same time: the wire is low where either pulls it low. Equal bytes stay whole.
-    const std::size_t common = std::min(first.what.bytes.size(), second.what.bytes.size());
-    for (std::size_t i = 0; i < common; ++i) {
-        const auto mixed = static_cast<std::uint8_t>(first.what.bytes[i] & second.what.bytes[i]);
-        if (first.what.bytes[i] != second.what.bytes[i])
-            first.what.damaged = second.what.damaged = true;
-        first.what.bytes[i] = second.what.bytes[i] = mixed;
-        second.absorbed[i] = true;
-    }
+    if (other.end() > one.end())
+        hearTail(second, to);
 }
 
-void Wire::scramble(OnWire &one, LineTime from, LineTime to)
+/// The listener comes in where another transmission ended, perhaps in the middle of a byte, and takes for a start bit what
+/// looks like one.
+void Wire::hearTail(OnWire &one, LineTime from)
 {
-    one.what.damaged = true;
-    for (std::size_t i = 0; i < one.what.bytes.size(); ++i) {
-        const LineTime whole = arrival(one.what, i);
-        if (whole <= from || whole - one.what.byteTime() >= to)
-            continue;
-        const std::uint8_t turned = randomByte();
-        one.what.bytes[i] ^= turned;
-        if (!one.what.atAdapter.empty())
-            one.what.atAdapter[i] ^= turned;
+    Transmission &what = one.what;
+    if (what.atAdapter.empty())
+        what.atAdapter = what.bytes;
+    const LineTime since = from - what.begin;
+    const double skipped = 10.0 * static_cast<double>(since.count()) / static_cast<double>(what.byteTime().count());
+    std::fill(one.absorbed.begin(), one.absorbed.end(), true);
+    for (const LateByte &late : heardFromWithin(what.bytes, skipped)) {
+        const std::size_t index = std::min(late.endsIn, one.absorbed.size() - 1);
+        what.atAdapter[index] = late.byte;
+        one.absorbed[index] = false;
     }
-}
-
-std::uint8_t Wire::randomByte()
-{
-    m_random ^= m_random << 13;
-    m_random ^= m_random >> 7;
-    m_random ^= m_random << 17;
-    return static_cast<std::uint8_t>(m_random >> 32) | 0x01U; // never 0: something changes
 }
 
 std::optional<LineTime> Wire::nextEnd() const

@@ -37,12 +37,11 @@ struct HeardByte {
     bool answer = false; ///< a device's
 };
 
-/// The half-duplex wire: who speaks when, what happens when two do, what the controller hears. Part of the bus.
+/// The half-duplex wire: who speaks when, what the controller hears. Where two speak at a time the wire is low when either
+/// pulls it low, and what a UART makes of that is heard. Part of the bus.
 class Wire
 {
 public:
-    explicit Wire(std::uint64_t seed) : m_random(seed * 2 + 1) {}
-
     void begin(Transmission transmission);
 
     std::optional<LineTime> nextEnd() const; ///< of a transmission that nobody has taken yet
@@ -64,12 +63,10 @@ private:
     };
     bool isHeard(const OnWire &one) const { return one.what.sender || m_echo; }
     void collide(OnWire &first, OnWire &second);
-    void scramble(OnWire &one, LineTime from, LineTime to);
+    void hearTail(OnWire &one, LineTime from);
     void forgetDone();
-    std::uint8_t randomByte();
 
     std::vector<OnWire> m_onWire; ///< by begin
-    std::uint64_t m_random;
     bool m_echo = false;
 };
 

@@ -48,6 +48,7 @@ public:
         int firmwareFrom = 0;
         int firmwareTo = 255;
         int resolution = 4096;    ///< pulses per revolution
+        int axes = 1;             ///< 2: two IDs, one baud rate, one lock of the EEPROM
         std::vector<int> operatingModes;
         std::vector<BaudCode> baudCodes;
         int fastReadsFrom = -1;   ///< first firmware with Fast Sync/Bulk Read; −1: never

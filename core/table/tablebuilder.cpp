@@ -43,6 +43,8 @@ void TableBuilder::readModel()
     if (m_common.series.isEmpty())
         say(QStringLiteral("\"series\" is missing"));
     m_common.resolution = static_cast<int>(numberIn(m_settings, QStringLiteral("resolution"), 1, 100'000'000, {}));
+    if (m_settings.contains(u"axes"))
+        m_common.axes = static_cast<int>(numberIn(m_settings, QStringLiteral("axes"), 1, 2, {}));
     m_newestFirmware = static_cast<int>(numberIn(m_settings, QStringLiteral("newestFirmware"), 0, NewestFirmware, {}));
     m_common.fastReadsFrom = readFirmware(QStringLiteral("fastReadsSince"));
     m_common.backupFrom = readFirmware(QStringLiteral("backupSince"));

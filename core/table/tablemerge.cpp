@@ -15,14 +15,14 @@ QStringList keys(const char *list)
 const QStringList &fileKeys()
 {
     static const QStringList list = keys("format extends series resolution newestFirmware baudRates fastReadsSince "
-                                         "backupSince receiveBuffer definitions registers indirect models");
+                                         "backupSince receiveBuffer axes definitions registers indirect models");
     return list;
 }
 
 const QStringList &modelKeys()
 {
     static const QStringList list = keys("number manual series resolution newestFirmware baudRates fastReadsSince "
-                                         "backupSince receiveBuffer registers indirect");
+                                         "backupSince receiveBuffer axes registers indirect");
     return list;
 }
 

@@ -554,7 +554,7 @@ private slots:
         QVERIFY(!joint.state().overload);
         joint.advanceTo(3 * second);
         QVERIFY(joint.state().overload);
-        QVERIFY(joint.state().inputVoltage <= 118);
+        QVERIFY(joint.state().inputVoltage <= 11.85);
         joint.advanceTo(30 * second);
         QVERIFY(joint.state().temperature >= cold + 5 && joint.state().temperature <= 70);
         joint.advanceTo(240 * second);

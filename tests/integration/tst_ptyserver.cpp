@@ -122,7 +122,7 @@ private slots:
     {
         QTemporaryDir folder;
         const QString link = folder.filePath(QStringLiteral("dxl"));
-        QVERIFY(QFile::link(QStringLiteral("/nowhere"), link)); // left behind by somebody
+        QVERIFY(QFile::link(QStringLiteral("/dev/pts/99999"), link)); // left behind by a simulator that was killed
         {
             auto server = PtyServer::start(makeBus(), link);
             QVERIFY(server);
@@ -136,6 +136,10 @@ private slots:
         QVERIFY(!refused);
         QVERIFY2(refused.error().text.contains(link), qPrintable(refused.error().text));
         QVERIFY(QFile::exists(link));
+        const QString foreign = folder.filePath(QStringLiteral("foreign"));
+        QVERIFY(QFile::link(QStringLiteral("/nowhere"), foreign));
+        QVERIFY(!PtyServer::start(makeBus(), foreign));
+        QCOMPARE(QFile::symLinkTarget(foreign), QStringLiteral("/nowhere"));
     }
 
     void ticks()
