@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
+#include "app/dxl/target.h"
 #include "core/bus/operations.h"
 
 namespace dynascope::dxl {
@@ -52,17 +53,51 @@ void adviseAfterSilence(const Work &work, const std::vector<int> &tried)
     work.output.note(text);
 }
 
+/// How far the scan is.
+struct Progress {
+    std::size_t rate = 0, rates = 1;
+
+    void show(const Work &work, double part) const
+    {
+        const double done = (static_cast<double>(rate) + part) / static_cast<double>(rates);
+        work.output.progress(done, QStringLiteral("%1 bps").arg(work.bus.line().baudRate()));
+    }
+};
+
+/// ID by ID, which may take minutes.
+Result<BaudScan> sweepAt(const Work &work, const Progress &progress)
+{
+    const IdRange ids = work.options.ids;
+    BaudScan all;
+    for (int id = ids.first; id <= ids.last; ++id) {
+        progress.show(work, double(id - ids.first) / (ids.last - ids.first + 1));
+        const auto one = scanBaud(work.bus, {id, id, true}, {});
+        if (!one)
+            return tl::unexpected(one.error());
+        for (const Found &device : one->devices)
+            print(work, device);
+        all.devices.insert(all.devices.end(), one->devices.begin(), one->devices.end());
+        if (all.unreadable.isEmpty())
+            all.unreadable = one->unreadable;
+    }
+    return all;
+}
+
 /// Everything at one baud rate; how many were found.
-Result<std::size_t> scanAt(const Work &work, int baud)
+Result<std::size_t> scanAt(const Work &work, int baud, const Progress &progress)
 {
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
+    progress.show(work, 0);
     // Printed when the rate is done: what makes an answer doubtful comes after it.
-    const auto found = scanBaud(work.bus, {work.options.ids.first, work.options.ids.last, work.options.sweep}, {});
+    const auto found = work.options.sweep ? sweepAt(work, progress)
+                                          : scanBaud(work.bus, {work.options.ids.first, work.options.ids.last}, {});
     if (!found)
         return tl::unexpected(found.error());
-    for (const Found &device : found->devices)
-        print(work, device);
+    for (const Found &device : found->devices) {
+        if (!work.options.sweep)
+            print(work, device);
+    }
     if (!found->unreadable.isEmpty())
         work.output.note(QStringLiteral("%1 bps: %2").arg(work.bus.line().baudRate()).arg(found->unreadable));
     return found->devices.size();
@@ -83,16 +118,20 @@ ExitCode scanCommand(const Work &work)
                 QStringLiteral("the rate of %1 is the server's: only that one is scanned").arg(work.bus.line().name()));
         bauds = {work.bus.line().baudRate()};
     }
+    Progress progress{0, bauds.size()};
     for (const int baud : bauds) {
-        const auto count = scanAt(work, baud);
+        if (work.output.isClosed())
+            break;
+        const auto count = scanAt(work, baud, progress);
+        ++progress.rate;
         if (count) {
             found += *count;
             if (*count == 0)
                 silent.push_back(baud);
             continue;
         }
-        work.output.note(count.error().text);
-        if (count.error().kind == ErrorKind::PortLost)
+        work.output.fail(count.error());
+        if (endsAll(count.error()))
             return ExitCode::Failed;
         // Of several rates nobody expects every port to do each; garbage at one of them doesn't end the search.
         const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;

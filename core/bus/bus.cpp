@@ -21,10 +21,14 @@ constexpr LineTime SettleLimit = 50ms;
 void Bus::setTraits(const std::vector<Traits> &traits)
 {
     m_known.reset();
-    for (const Traits &device : traits) {
-        m_known.set(device.id);
-        m_traits[device.id] = device;
-    }
+    for (const Traits &device : traits)
+        addTraits(device);
+}
+
+void Bus::addTraits(const Traits &device)
+{
+    m_known.set(device.id);
+    m_traits[device.id] = device;
 }
 
 Traits Bus::traits(std::uint8_t id) const
