@@ -6,6 +6,13 @@ include(GNUInstallDirs)
 set(DYNASCOPE_UDEV_DIR "lib/udev/rules.d" CACHE STRING "Where the udev rule goes, under the install prefix if relative")
 
 install(TARGETS dxl RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/resources/dxl.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+if(TARGET dxl_completions)
+    set(completions ${CMAKE_BINARY_DIR}/completions)
+    install(FILES ${completions}/dxl.bash RENAME dxl DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+    install(FILES ${completions}/dxl.zsh RENAME _dxl DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${completions}/dxl.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 if(DYNASCOPE_WINDOW)
     install(TARGETS dynascope RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     install(FILES ${PROJECT_SOURCE_DIR}/resources/dynascope.desktop

@@ -16,13 +16,28 @@ struct Work {
     Output &output;
 };
 
-ExitCode scanCommand(const Work &work);
+/// @name Commands on a line. They print results and failures themselves.
+/// @{
+ExitCode backupCommand(const Work &work);
+ExitCode clearCommand(const Work &work);
+ExitCode infoCommand(const Work &work);
+ExitCode packetCommand(const Work &work);
 ExitCode pingCommand(const Work &work);
 ExitCode readCommand(const Work &work);
-ExitCode writeCommand(const Work &work);
-/// Polls for a while, or until the program is interrupted, and reports.
+ExitCode rebootCommand(const Work &work);
+ExitCode resetCommand(const Work &work);
+ExitCode scanCommand(const Work &work);
 ExitCode statsCommand(const Work &work);
+ExitCode stopCommand(const Work &work);
+ExitCode switchCommand(const Work &work); ///< torque, led
+ExitCode tableCommand(const Work &work);
+ExitCode watchCommand(const Work &work);
+ExitCode writeCommand(const Work &work);
+/// @}
 
+ExitCode completionCommand(const Catalog &catalog, const Options &options);
+ExitCode portsCommand(Output &output);
+ExitCode versionCommand(Output &output);
 /// Serves the bus until the program is interrupted.
 ExitCode simCommand(const Catalog &catalog, const Options &options, Output &output);
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/connection.h"
 
+#include "app/dxl/interrupt.h"
 #include "app/dxl/options.h"
+#include "app/dxl/packettext.h"
 #include "core/bus/networklinefactory.h"
 #include "core/bus/networkaddress_values.h"
 #include "core/bus/seriallinefactory.h"
+#include "core/sim/demo.h"
 
 #include <cstdio>
 
@@ -12,40 +15,68 @@ namespace dynascope::dxl {
 
 namespace {
 
-void printPacket(Bus::Direction direction, LineTime at, ByteView packet)
+constexpr QStringView SimulatedPort = u"sim";
+
+
+/// Each packet with its time since the first, and what it says.
+class PacketLog
 {
-    const QByteArray bytes(reinterpret_cast<const char *>(packet.data()), static_cast<qsizetype>(packet.size()));
-    std::fprintf(stderr, "%12.3f ms %s %s\n", std::chrono::duration<double, std::milli>(at).count(),
-                 direction == Bus::Direction::Sent ? ">" : "<", bytes.toHex(' ').toUpper().constData());
+public:
+    explicit PacketLog(LineTime begin) : m_begin(begin) {}
+
+    void print(Bus::Direction direction, LineTime at, ByteView packet)
+    {
+        std::fprintf(stderr, "%12.3f ms %s %s  %s\n", std::chrono::duration<double, std::milli>(at - m_begin).count(),
+                     direction == Bus::Direction::Sent ? ">" : "<", qUtf8Printable(hexText(packet)),
+                     qUtf8Printable(m_text.describe(packet)));
+    }
+
+private:
+    LineTime m_begin;
+    PacketText m_text;
+};
+
+std::optional<LineTime> allowance(const Options &options)
+{
+    return options.timeout ? std::optional<LineTime>(std::chrono::milliseconds(*options.timeout)) : std::nullopt;
 }
 
 } // namespace
 
-Connection::Connection(std::unique_ptr<Line> line)
-    : m_line(std::move(line))
+Connection::Connection(std::unique_ptr<Line> line, std::unique_ptr<sim::Demo> demo)
+    : m_demo(std::move(demo))
+    , m_line(std::move(line))
     , m_bus(*m_line)
 {
+    m_bus.setCancel(&interrupted());
 }
 
-Result<std::unique_ptr<Connection>> Connection::open(const Options &options)
+Connection::~Connection() = default;
+
+Result<std::unique_ptr<Connection>> Connection::open(const Catalog &catalog, const Options &options)
 {
-    SerialLineFactory serial;
-    NetworkLineFactory network;
-    LineFactory &factory = network.knows(options.port) ? static_cast<LineFactory &>(network) : serial;
-    auto line = factory.open(options.port, options.baudRate);
-    if (!line && line.error().kind == ErrorKind::PortNotFound && options.port == u"sim") {
-        return failure(ErrorKind::PortNotFound,
-                       QStringLiteral("there is no port sim here: dxl sim --devices MODEL@BAUD:ID serves a simulated bus; "
-                                      "pass the path that it prints as --port"));
+    SerialLineFactory serial({allowance(options)});
+    NetworkOptions overNetwork;
+    overNetwork.hostAllowance = allowance(options);
+    NetworkLineFactory network(overNetwork);
+    std::unique_ptr<sim::Demo> demo;
+    QString path = options.port;
+    if (options.port == SimulatedPort) {
+        auto started = sim::Demo::start(catalog);
+        if (!started)
+            return tl::unexpected(started.error());
+        demo = std::move(*started);
+        path = demo->path();
     }
+    LineFactory &factory = network.knows(path) ? static_cast<LineFactory &>(network) : serial;
+    auto line = factory.openUnless(interrupted(), path, options.baudRate);
     if (!line)
         return tl::unexpected(line.error());
-    std::unique_ptr<Connection> connection(new Connection(std::move(*line)));
+    std::unique_ptr<Connection> connection(new Connection(std::move(*line), std::move(demo)));
     if (options.verbose) {
-        const LineTime begin = connection->m_line->now();
-        connection->m_bus.setTap([begin](Bus::Direction direction, LineTime at, ByteView packet) {
-            printPacket(direction, at - begin, packet);
-        });
+        const auto log = std::make_shared<PacketLog>(connection->m_line->now());
+        connection->m_bus.setTap(
+            [log](Bus::Direction direction, LineTime at, ByteView packet) { log->print(direction, at, packet); });
     }
     return connection;
 }

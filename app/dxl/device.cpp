@@ -117,7 +117,12 @@ Result<void> Device::follow(const Found &found)
 {
     m_found = found;
     setTraits(m_statusReturnLevel);
-    return m_bus.line().baudRate() == found.baudRate ? Result<void>() : m_bus.setBaudRate(found.baudRate);
+    return enter();
+}
+
+Result<void> Device::enter()
+{
+    return m_bus.setBaudRate(m_found.baudRate);
 }
 
 std::optional<std::int64_t> Device::lookUp(QStringView name)
@@ -139,7 +144,8 @@ void Device::setTraits(std::uint8_t statusReturnLevel)
     traits.id = id();
     traits.baudRate = m_bus.line().baudRate();
     traits.statusReturnLevel = statusReturnLevel;
-    m_bus.setTraits({traits});
+    traits.firmware = m_found.firmware;
+    m_bus.addTraits(traits);
 }
 
 } // namespace dynascope::dxl

@@ -24,6 +24,7 @@ public:
     /// At 0 it answers Ping alone: nothing can be read.
     bool isMute() const { return m_statusReturnLevel == 0; }
     bool isIdentified() const { return !m_model.isEmpty(); }
+    const QString &model() const { return m_model; } ///< "XM430-W350"; empty until it is identified
     QString name() const; ///< "XM430-W350 (ID 1)"
     const ControlTable *table() const { return m_table.get(); }
 
@@ -46,6 +47,7 @@ public:
     void forget() { m_known.clear(); }
     /// The device is elsewhere after a change of its ID or baud rate; the line works there.
     Result<void> follow(const Found &found);
+    Result<void> enter(); ///< the line works where the device is: another one may have been followed elsewhere
 
 private:
     std::optional<std::int64_t> lookUp(QStringView name);

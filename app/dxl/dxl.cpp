@@ -1,33 +1,78 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/dxl.h"
 
+#include "app/dxl/chooseport.h"
 #include "app/dxl/commands.h"
+#include "app/dxl/interrupt.h"
+#include "core/bus/seriallinefactory.h"
 
 namespace dynascope::dxl {
 
 namespace {
+
+ExitCode performOnLine(const Work &work)
+{
+    switch (work.options.command) {
+    case Command::Backup: return backupCommand(work);
+    case Command::Clear: return clearCommand(work);
+    case Command::Info: return infoCommand(work);
+    case Command::Packet: return packetCommand(work);
+    case Command::Ping: return pingCommand(work);
+    case Command::Read: return readCommand(work);
+    case Command::Reboot: return rebootCommand(work);
+    case Command::Reset: return resetCommand(work);
+    case Command::Scan: return scanCommand(work);
+    case Command::Stats: return statsCommand(work);
+    case Command::Stop: return stopCommand(work);
+    case Command::Table: return tableCommand(work);
+    case Command::Torque:
+    case Command::Led: return switchCommand(work);
+    case Command::Watch: return watchCommand(work);
+    case Command::Write: return writeCommand(work);
+    case Command::Completion:
+    case Command::Ports:
+    case Command::Sim:
+    case Command::Version: break; // need no line
+    }
+    return ExitCode::Usage;
+}
+
+ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &output)
+{
+    heedSignals();
+    if (options.port.isEmpty()) {
+        const auto chosen = choosePort(SerialPortList().ports());
+        if (!chosen)
+            return output.refuse(chosen.error());
+        options.port = *chosen;
+        output.note(QStringLiteral("on %1, the one adapter that is there").arg(options.port));
+    }
+    const auto connection = Connection::open(catalog, options);
+    if (!connection)
+        return output.fail(connection.error());
+    return performOnLine({options, catalog, (*connection)->bus(), output});
+}
 
 ExitCode perform(const Options &options, Output &output)
 {
     const auto catalog = Catalog::builtIn();
     if (!catalog)
         return output.fail(catalog.error());
-    if (options.command == Command::Sim)
-        return simCommand(*catalog, options, output);
-
-    const auto connection = Connection::open(options);
-    if (!connection)
-        return output.fail(connection.error());
-    const Work work{options, *catalog, (*connection)->bus(), output};
     switch (options.command) {
-    case Command::Scan: return scanCommand(work);
-    case Command::Ping: return pingCommand(work);
-    case Command::Read: return readCommand(work);
-    case Command::Write: return writeCommand(work);
-    case Command::Stats: return statsCommand(work);
-    case Command::Sim: break;
+    case Command::Completion: return completionCommand(*catalog, options);
+    case Command::Ports: return portsCommand(output);
+    case Command::Sim: return simCommand(*catalog, options, output);
+    case Command::Version: return versionCommand(output);
+    default: return connectAndPerform(*catalog, options, output);
     }
-    return ExitCode::Usage;
+}
+
+/// Being interrupted is how `stats` may end, with its report.
+ExitCode finalCode(const Options &options, const Output &output, ExitCode code)
+{
+    if (interrupted() && (options.command != Command::Stats || code != ExitCode::Done))
+        return ExitCode::Interrupted;
+    return output.isClosed() && code == ExitCode::Done ? ExitCode::Unread : code;
 }
 
 } // namespace
@@ -40,7 +85,10 @@ int run(int argc, const char *const *argv)
     Output output(options->json);
     const ExitCode code = perform(*options, output);
     output.finish();
-    return static_cast<int>(code);
+    const ExitCode last = finalCode(*options, output, code);
+    if (last == ExitCode::Interrupted && code != last) // else it has said what it came to
+        output.note(QStringLiteral("interrupted; nothing more was sent"));
+    return static_cast<int>(last);
 }
 
 } // namespace dynascope::dxl

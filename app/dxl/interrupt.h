@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 namespace dynascope::dxl {
 
-/// Turns Ctrl-C, SIGTERM and a closed terminal into an orderly end. Made before any other thread, which then leave those
-/// signals to wait() and came().
+/// @name Ctrl-C, SIGTERM and a closed terminal, where a command works on a line
+/// @{
+/// From now on they set the flag that interrupted() shows; a second one ends the program at once. A closed pipe is told
+/// by the write to it.
+void heedSignals();
+const std::atomic<bool> &interrupted();
+/// @}
+
+/// Turns the same signals into an orderly end where a thread does nothing but wait for it. Made before any other
+/// thread, which then leave those signals to wait() and came().
 class Interrupt
 {
 public:

@@ -6,6 +6,41 @@
 
 namespace dynascope::dxl {
 
+namespace {
+
+/// The one thing that a signal handler can reach.
+std::atomic<bool> interruptedFlag{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may touch nothing else");
+
+void noteSignal(int)
+{
+    interruptedFlag.store(true, std::memory_order_release);
+}
+
+} // namespace
+
+void heedSignals()
+{
+    struct sigaction broken {};
+    broken.sa_handler = SIG_IGN;
+    sigaction(SIGPIPE, &broken, nullptr);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction before {};
+        sigaction(signal, nullptr, &before);
+        if (before.sa_handler == SIG_IGN) // as nohup and a shell's background jobs have it
+            continue;
+        struct sigaction ending {};
+        ending.sa_handler = noteSignal;
+        ending.sa_flags = SA_RESETHAND; // without SA_RESTART: a question that waits for its answer ends
+        sigaction(signal, &ending, nullptr);
+    }
+}
+
+const std::atomic<bool> &interrupted()
+{
+    return interruptedFlag;
+}
+
 struct Interrupt::Signals {
     sigset_t ending;
     sigset_t before;

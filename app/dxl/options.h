@@ -3,37 +3,82 @@
 
 #include "app/dxl/arguments.h"
 #include "app/dxl/simoptions.h"
+#include "core/protocol/protocol_values.h"
 
+#include <optional>
 #include <vector>
 
 namespace dynascope::dxl {
 
 enum class ExitCode {
     Done = 0,
-    Failed = 1,      ///< a device or the line
-    Usage = 2,       ///< nothing was written
-    Unconfirmed = 3, ///< sent to a device that was told never to answer
+    Failed = 1,        ///< a device or the line
+    Usage = 2,         ///< nothing was written
+    Unconfirmed = 3,   ///< sent, and nothing says that it arrived
+    Interrupted = 130, ///< Ctrl-C, SIGTERM, or the terminal was closed; as a shell says it of SIGINT
+    Unread = 141,      ///< nobody reads standard output any more; as a shell says it of SIGPIPE
 };
 
-enum class Command { Scan, Ping, Read, Write, Stats, Sim };
+enum class Command {
+    Backup,
+    Clear,
+    Completion,
+    Info,
+    Led,
+    Packet,
+    Ping,
+    Ports,
+    Read,
+    Reboot,
+    Reset,
+    Scan,
+    Sim,
+    Stats,
+    Stop,
+    Table,
+    Torque,
+    Version,
+    Watch,
+    Write,
+};
+
+/// Of the documents that --json writes: README, "JSON". Grows when a program written for the last one would be misled.
+constexpr int JsonVersion = 1;
 
 /// What the command line says, checked as far as that goes without a device.
 struct Options {
     Command command = Command::Ping;
-    QString port;
+    QString port;         ///< empty: the one adapter that is there
     int baudRate = 57600; ///< bits per second
+    std::optional<int>
+        timeout; ///< ms that an answer may come late on account of the host; nothing: by the kind of port
     bool json = false;
     bool verbose = false; ///< every packet to standard error
-    // scan
+    /// The devices, ascending. Empty with `stats`, `stop`: whoever a scan finds.
+    std::vector<std::uint8_t> idList;
+    std::vector<RegisterArgument> registers; ///< read, write, stats, watch
+    // scan, stop
     std::vector<int> bauds;
     IdRange ids{0, 252};
     bool sweep = false; ///< scan: one Ping after the other
-    // ping, read, write
-    std::uint8_t id = 0;
-    std::vector<RegisterArgument> registers;
-    // stats, with `registers`
-    double seconds = 10;
-    std::vector<std::uint8_t> idList; ///< who should be there; empty: whoever a scan finds
+    QString model;      ///< stop: what all of idList are
+    // stats, watch
+    std::optional<double> seconds;
+    std::optional<int> count; ///< watch: samples
+    double rate = 10;         ///< watch: samples a second; 0: as many as the line carries
+    bool csv = false;         ///< watch
+    // torque, led
+    bool on = false;
+    // reset, clear, backup
+    ResetOption reset = ResetOption::AllButIdAndBaud;
+    ClearOption clear = ClearOption::Position;
+    BackupOption backup = BackupOption::Store;
+    bool yes = false; ///< was asked and agreed
+    // packet
+    Bytes packet;              ///< as it goes out
+    std::optional<int> listen; ///< ms
+    // completion
+    QString shell;
     SimOptions sim;
 };
 

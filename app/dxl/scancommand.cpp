@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
+#include "app/dxl/target.h"
 #include "core/bus/scan.h"
 #include "core/session/volatilespan.h"
 
@@ -53,13 +54,29 @@ void adviseAfterSilence(const Work &work, const std::vector<int> &tried)
     work.output.note(text);
 }
 
+/// How far the scan is.
+struct Progress {
+    std::size_t rate = 0, rates = 1;
+
+    void show(const Work &work, double part) const
+    {
+        const double done = (static_cast<double>(rate) + part) / static_cast<double>(rates);
+        work.output.progress(done, QStringLiteral("%1 bps").arg(work.bus.line().baudRate()));
+    }
+};
+
 /// Everything at one baud rate; how many were found.
-Result<std::size_t> scanAt(const Work &work, int baud)
+Result<std::size_t> scanAt(const Work &work, int baud, const Progress &progress)
 {
     if (const auto set = work.bus.setBaudRate(baud); !set)
         return tl::unexpected(set.error());
+    progress.show(work, 0);
     // Printed when the rate is done: what makes an answer doubtful comes after it.
     ScanHooks hooks;
+    hooks.between = [&work, &progress](double part) -> Result<void> {
+        progress.show(work, part);
+        return {};
+    };
     hooks.volatileOf = [&work](const Found &device) {
         const ControlTablePtr table = work.catalog.find(device.modelNumber, device.firmware);
         return table ? volatileSpanOf(*table) : std::nullopt;
@@ -89,16 +106,20 @@ ExitCode scanCommand(const Work &work)
                 QStringLiteral("the rate of %1 is the server's: only that one is scanned").arg(work.bus.line().name()));
         bauds = {work.bus.line().baudRate()};
     }
+    Progress progress{0, bauds.size()};
     for (const int baud : bauds) {
-        const auto count = scanAt(work, baud);
+        if (work.output.isClosed())
+            break;
+        const auto count = scanAt(work, baud, progress);
+        ++progress.rate;
         if (count) {
             found += *count;
             if (*count == 0)
                 silent.push_back(baud);
             continue;
         }
-        work.output.note(count.error().text);
-        if (count.error().kind == ErrorKind::PortLost)
+        work.output.fail(count.error());
+        if (endsAll(count.error()))
             return ExitCode::Failed;
         // Of several rates nobody expects every port to do each; garbage at one of them doesn't end the search.
         const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;

@@ -5,9 +5,8 @@
 
 namespace dynascope::dxl {
 
-void showField(Output &output, Device &device, const Field &field, std::int64_t raw)
+Document fieldDocument(const Device &device, const Field &field, const EffectiveField &units, std::int64_t raw)
 {
-    const EffectiveField units = device.units(field);
     const int resolution = device.table()->resolution();
     const QString named = meaning(field, raw);
     Document document;
@@ -22,10 +21,18 @@ void showField(Output &output, Device &device, const Field &field, std::int64_t 
     document.add("unit", unitId(units.unit));
     if (!named.isEmpty())
         document.add("meaning", named);
+    return document;
+}
+
+void showField(Output &output, Device &device, const Field &field, std::int64_t raw)
+{
+    const EffectiveField units = device.units(field);
+    const int resolution = device.table()->resolution();
     const QString number = QString::number(raw);
     const QString value = valueText(field, units, resolution, raw);
     const QString text = value == number ? number : QStringLiteral("%1 (%2)").arg(number, value);
-    output.result(QStringLiteral("%1 = %2").arg(field.name, text), document);
+    output.result(device.id(), QStringLiteral("%1 = %2").arg(field.name, text),
+                  fieldDocument(device, field, units, raw));
 }
 
 namespace {
@@ -53,7 +60,7 @@ void showBytes(Output &output, const Device &device, const RegisterArgument &arg
         text = hex(bytes, ' ');
         document.add("hex", hex(bytes, 0));
     }
-    output.result(QStringLiteral("%1 = %2").arg(argument.text(), text), document);
+    output.result(device.id(), QStringLiteral("%1 = %2").arg(argument.text(), text), document);
 }
 
 void showSent(Output &output, const Device &device, const Field *field, const RegisterArgument &argument,
@@ -74,7 +81,8 @@ void showSent(Output &output, const Device &device, const Field *field, const Re
     }
     document.addFlag("confirmed", false);
     const QString reason = QStringLiteral("the Status Return Level 0 of %1 lets nothing be read back").arg(device.name());
-    output.unconfirmed(QStringLiteral("%1: sent, but not confirmed: %2").arg(argument.text(), reason), document);
+    const QString text = QStringLiteral("%1: sent, but not confirmed: %2").arg(argument.text(), reason);
+    output.unconfirmed(output.named(device.id(), text), document);
 }
 
 ExitCode showFailure(Output &output, const Device &device, const RegisterArgument &argument, const Error &error,
@@ -89,7 +97,9 @@ ExitCode showFailure(Output &output, const Device &device, const RegisterArgumen
     Error named = withWayOut(error, device);
     document.add("error", named.text);
     output.failedResult(document);
-    named.text = QStringLiteral("%1: %2%3").arg(argument.text(), named.text, aftermath);
+    if (named.kind == ErrorKind::Cancelled && !aftermath.isEmpty())
+        output.note(output.named(device.id(), QStringLiteral("%1: interrupted%2").arg(argument.text(), aftermath)));
+    named.text = output.named(device.id(), QStringLiteral("%1: %2%3").arg(argument.text(), named.text, aftermath));
     return output.fail(named);
 }
 

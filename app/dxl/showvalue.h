@@ -7,7 +7,9 @@
 
 namespace dynascope::dxl {
 
-/// "Present Position = 2048 (180.00 °)", or {"id":1,"field":"Present Position","address":132,"raw":2048,...}.
+/// {"id":1,"field":"Present Position","address":132,"raw":2048,"value":180.0,"unit":"deg"}
+Document fieldDocument(const Device &device, const Field &field, const EffectiveField &units, std::int64_t raw);
+/// "Present Position = 2048 (180.00 °)", or that document.
 void showField(Output &output, Device &device, const Field &field, std::int64_t raw);
 /// "132:4 = 2048", or {"id":1,"address":132,"length":4,"raw":2048}; more than four bytes as hexadecimal digits.
 void showBytes(Output &output, const Device &device, const RegisterArgument &argument, const Bytes &bytes);

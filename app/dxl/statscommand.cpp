@@ -16,17 +16,17 @@ using namespace std::chrono_literals;
 constexpr LineTime LongestWait = 20ms; ///< without a look at the signals
 
 /// At full rate until the time is over or somebody interrupts; `outcome` holds also what came before a failure.
-Result<void> pollAll(const Work &work, StatsDevices &all, Interrupt &interrupt, StatsOutcome &outcome)
+Result<void> pollAll(const Work &work, StatsDevices &all, StatsOutcome &outcome)
 {
     Poller poller(work.bus);
     poller.setPlan(all.plan);
     const LineQuality before = work.bus.quality();
     const LineTime begin = work.bus.line().now();
     const auto length =
-        std::chrono::duration_cast<LineTime>(std::chrono::duration<double>(work.options.seconds));
+        std::chrono::duration_cast<LineTime>(std::chrono::duration<double>(work.options.seconds.value_or(10.0)));
     Batch batch;
     Result<void> done;
-    while (done && !interrupt.came() && work.bus.line().now() - begin < length) {
+    while (done && !interrupted() && work.bus.line().now() - begin < length) {
         const LineTime idle = poller.nextDue() - work.bus.line().now();
         if (idle > 0ns) { // everybody is silent
             done = work.bus.wait(std::min({idle, LongestWait, begin + length - work.bus.line().now()}));
@@ -44,14 +44,13 @@ Result<void> pollAll(const Work &work, StatsDevices &all, Interrupt &interrupt, 
     }
     outcome.duration = work.bus.line().now() - begin;
     outcome.quality = work.bus.quality().since(before);
-    return done;
+    return done || done.error().kind != ErrorKind::Cancelled ? done : Result<void>();
 }
 
 } // namespace
 
 ExitCode statsCommand(const Work &work)
 {
-    Interrupt interrupt;
     auto all = findStatsDevices(work);
     if (!all)
         return all.error().kind == ErrorKind::InvalidArgument ? work.output.refuse(all.error())
@@ -62,7 +61,7 @@ ExitCode statsCommand(const Work &work)
                 .arg(QString::number(work.options.baudRate), work.options.port)});
     }
     StatsOutcome outcome;
-    const Result<void> polled = pollAll(work, *all, interrupt, outcome);
+    const Result<void> polled = pollAll(work, *all, outcome);
     work.output.result(statsText(work.options, *all, outcome), statsDocument(work.options, *all, outcome));
     if (!polled)
         return work.output.fail(polled.error());

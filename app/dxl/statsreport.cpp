@@ -52,6 +52,8 @@ QString markOf(const DeviceQuality &quality)
     return {};
 }
 
+constexpr std::size_t ModelColumn = 1;
+
 QStringList headings()
 {
     QStringList texts{QStringLiteral("ID"), QStringLiteral("Model"), QStringLiteral("Good"), QStringLiteral("Bad %")};
@@ -74,27 +76,6 @@ QStringList rowOf(const QString &id, const QString &model, const DeviceQuality &
         texts << QString::number(countOf(quality, fault));
     return texts << QString::number(quality.retries) << time(0.5) << time(0.99)
                  << QString::number(perSecond(quality.bytes, outcome), 'f', 0);
-}
-
-/// Columns as wide as their widest cell, numbers at the right.
-QString aligned(const std::vector<QStringList> &rows)
-{
-    std::vector<qsizetype> widths(static_cast<std::size_t>(rows.front().size()), 0);
-    for (const QStringList &row : rows) {
-        for (std::size_t i = 0; i < widths.size(); ++i)
-            widths[i] = std::max(widths[i], row[static_cast<qsizetype>(i)].size());
-    }
-    constexpr std::size_t ModelColumn = 1;
-    QStringList lines;
-    for (const QStringList &row : rows) {
-        QStringList cells;
-        for (std::size_t i = 0; i < widths.size(); ++i) {
-            const QString &cell = row[static_cast<qsizetype>(i)];
-            cells << (i == ModelColumn ? cell.leftJustified(widths[i]) : cell.rightJustified(widths[i]));
-        }
-        lines << cells.join(QStringLiteral("  "));
-    }
-    return lines.join(u'\n');
 }
 
 Document countsDocument(Document document, const DeviceQuality &quality, const DurationCounts &durations,
@@ -138,7 +119,7 @@ QString statsText(const Options &options, const StatsDevices &all, const StatsOu
                        .arg(perSecond(outcome.cycles, outcome), 0, 'f', 1)
                        .arg(milliseconds(outcome.cycleTimes.percentile(0.5)), 0, 'f', 2)
                        .arg(milliseconds(outcome.cycleTimes.percentile(0.99)), 0, 'f', 2)
-                       .arg(aligned(rows));
+                       .arg(aligned(rows, {ModelColumn}));
     for (const AnswerFault fault : AllAnswerFaults) {
         if (countOf(sum, fault) > 0)
             text += QStringLiteral("\n%1: %2 %3").arg(faultName(fault), faultMeaning(fault), usualCauses(fault));

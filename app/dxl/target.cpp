@@ -1,23 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/target.h"
 
-#include <algorithm>
+#include "app/dxl/showvalue.h"
 
 namespace dynascope::dxl {
 
-std::optional<Device> target(const Work &work, bool onlyIfNamed)
+bool endsAll(const Error &error)
 {
-    const std::vector<RegisterArgument> &registers = work.options.registers;
-    if (registers.size() > 1)
+    return error.kind == ErrorKind::PortLost || error.kind == ErrorKind::Cancelled;
+}
+
+void showDeviceFailure(const Work &work, std::uint8_t id, const Error &error)
+{
+    Document document;
+    work.output.failedResult(document.add("id", qint64(id)).add("error", error.text));
+    work.output.fail(error);
+}
+
+Targets findTargets(const Work &work, std::size_t results, bool blind)
+{
+    const std::vector<std::uint8_t> &ids = work.options.idList;
+    if (results > 1)
         work.output.expectMany();
-    Device device(work.bus, work.options.id);
-    if (onlyIfNamed && std::ranges::all_of(registers, &RegisterArgument::isByAddress))
-        return device;
-    if (const auto known = device.identify(work.catalog); !known) {
-        work.output.fail(withAdvice(known.error(), work.options));
-        return std::nullopt;
+    if (ids.size() > 1)
+        work.output.expectDevices();
+    Targets targets;
+    for (const std::uint8_t id : ids) {
+        Device &device = targets.devices.emplace_back(work.bus, id);
+        if (blind)
+            continue;
+        const auto known = device.identify(work.catalog);
+        if (known)
+            continue;
+        targets.devices.pop_back();
+        targets.code = ExitCode::Failed;
+        targets.ended = endsAll(known.error());
+        showDeviceFailure(work, id, targets.ended ? known.error() : withAdvice(known.error(), work.options));
+        if (targets.ended)
+            break;
     }
-    return device;
+    return targets;
+}
+
+ExitCode forEachDevice(const Work &work, const std::function<Result<void>(Device &)> &action)
+{
+    Targets targets = findTargets(work, 1);
+    for (Device &device : targets.devices) {
+        if (targets.ended || work.output.isClosed())
+            break;
+        Result<void> done = device.enter();
+        if (done)
+            done = action(device);
+        if (done)
+            continue;
+        const Error error = withWayOut(done.error(), device);
+        showDeviceFailure(work, device.id(), error);
+        const bool sent = error.kind == ErrorKind::NotConfirmed && targets.code != ExitCode::Failed;
+        targets.code = sent ? ExitCode::Unconfirmed : ExitCode::Failed;
+        targets.ended = endsAll(error);
+    }
+    return targets.code;
 }
 
 } // namespace dynascope::dxl

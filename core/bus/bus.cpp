@@ -22,14 +22,21 @@ void Bus::setTraits(const std::vector<Traits> &traits)
 {
     m_known.reset();
     m_moreTraits.clear();
-    for (const Traits &device : traits) {
-        if (m_known.test(device.id)) {
-            m_moreTraits.push_back(device);
-            continue;
-        }
+    for (const Traits &device : traits)
+        addTraits(device);
+}
+
+void Bus::addTraits(const Traits &device)
+{
+    if (!m_known.test(device.id) || m_traits[device.id].baudRate == device.baudRate) {
         m_known.set(device.id);
         m_traits[device.id] = device;
+        return;
     }
+    std::erase_if(m_moreTraits, [&device](const Traits &other) {
+        return other.id == device.id && other.baudRate == device.baudRate;
+    });
+    m_moreTraits.push_back(device);
 }
 
 Traits Bus::traits(std::uint8_t id) const

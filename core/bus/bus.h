@@ -29,6 +29,7 @@ public:
 
     /// `traits` of the devices concerned, each for its baud rate; those not listed are taken for factory-fresh.
     void setTraits(const std::vector<Traits> &traits);
+    void addTraits(const Traits &device); ///< of one more, or anew; the others stay
     Traits traits(std::uint8_t id) const;
 
     /// Sends and collects. Retries what is idempotent up to `retries` times. Total failures of the port come as an

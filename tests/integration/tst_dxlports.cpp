@@ -47,9 +47,8 @@ void TestDxlPorts::usage_data()
 {
     QTest::addColumn<QString>("line");
     QTest::addColumn<QString>("says");
-    QTest::newRow("nothing") << QString() << u"scan, ping, read, write, stats or sim"_s;
+    QTest::newRow("nothing") << QString() << u"say what to do: scan"_s;
     QTest::newRow("unknown command") << u"--port /dev/null dance"_s << u"dance"_s;
-    QTest::newRow("no port") << u"ping 1"_s << u"needs a port"_s;
     QTest::newRow("no ID") << u"--port /dev/null ping"_s << u"ID"_s;
     QTest::newRow("ID too large") << u"--port /dev/null ping 253"_s << u"253"_s;
     QTest::newRow("ID negative") << u"--port /dev/null ping -1"_s << u"-1"_s;
@@ -63,6 +62,20 @@ void TestDxlPorts::usage_data()
     QTest::newRow("nothing to write") << u"--port /dev/null write 1"_s << u"ASSIGNMENT"_s;
     QTest::newRow("bad address") << u"--port /dev/null read 1 abc:4"_s << u"abc:4"_s;
     QTest::newRow("no devices") << u"sim"_s << u"--devices"_s;
+    QTest::newRow("ID in a list too large") << u"--port /dev/null read 1,3-253 132:4"_s << u"3-253"_s;
+    QTest::newRow("on or off") << u"--port /dev/null torque maybe 1"_s << u"maybe"_s;
+    QTest::newRow("torque of nobody") << u"--port /dev/null torque on"_s << u"IDS"_s;
+    QTest::newRow("no such reset") << u"--port /dev/null reset some 1"_s << u"some"_s;
+    QTest::newRow("backup of what") << u"--port /dev/null backup 1"_s << u"1"_s;
+    QTest::newRow("watch nothing") << u"--port /dev/null watch 1"_s << u"FIELD"_s;
+    QTest::newRow("no rate") << u"--port /dev/null watch 1 moving --rate 0"_s << u"--rate"_s;
+    QTest::newRow("two forms") << u"--port /dev/null --json watch 1 moving --csv"_s << u"--csv and --json"_s;
+    QTest::newRow("JSON of another version") << u"--json=2 version"_s << u"version 1"_s;
+    QTest::newRow("timeout") << u"--port /dev/null --timeout 0 ping 1"_s << u"0"_s;
+    QTest::newRow("model of nobody") << u"--port /dev/null stop --model XM430-W350"_s << u"--model"_s;
+    QTest::newRow("no packet") << u"--port /dev/null packet"_s << u"--hex"_s;
+    QTest::newRow("no such instruction") << u"--port /dev/null packet dance 1"_s << u"dance"_s;
+    QTest::newRow("shell") << u"completion tcsh"_s << u"tcsh"_s;
 }
 
 void TestDxlPorts::usage()
@@ -87,7 +100,8 @@ void TestDxlPorts::help()
         QVERIFY(outcome.out.contains(u"dxl"));
     }
     QVERIFY(dxl({u"write"_s, u"--help"_s}).out.contains(u"90deg"));
-    QVERIFY(dxl({u"--help"_s}).out.contains(u"3 sent, but not confirmed"));
+    const QString help = dxl({u"--help"_s}).out;
+    QVERIFY(help.contains(u"3 sent, but not confirmed") && help.contains(u"130 interrupted"));
 }
 
 void TestDxlPorts::wrongPort_data()
@@ -96,7 +110,6 @@ void TestDxlPorts::wrongPort_data()
     QTest::addColumn<QString>("says");
     QTest::newRow("missing") << m_directory.filePath(u"none"_s) << u"no port"_s;
     QTest::newRow("no serial port") << u"/dev/null"_s << u"not a serial port"_s;
-    QTest::newRow("the window's simulated bus") << u"sim"_s << u"pass the path that it prints"_s;
     QTest::newRow("folder") << m_directory.path() << u"not a serial port"_s;
 }
 

@@ -15,7 +15,7 @@ target_sources(dynascope_test_support PRIVATE
 )
 if(UNIX)
     target_sources(dynascope_test_support PRIVATE
-        support/dxlprocess_posix.cpp support/dxlprocess.h
+        support/dxlprocess_posix.cpp support/dxlprocess.h support/dxlbus.h
         support/ser2net_posix.cpp support/ser2net.h
         support/ptyclient_posix.cpp support/ptyclient.h
         support/loopbackserver_posix.cpp support/loopbackserver.h

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/dxl/arguments.h"
+#include "app/dxl/device.h"
+#include "app/dxl/output.h"
+
+namespace dynascope::dxl {
+
+/// A register and what will be written to it.
+struct Assignment {
+    RegisterArgument argument;
+    const Field *field = nullptr; ///< also where its address and length were given; nullptr: none known
+    std::int64_t raw = 0;         ///< of the field
+    Bytes data;
+
+    bool isLockedByTorque() const { return !argument.isByAddress() && field->needsTorqueOff(); }
+};
+
+/// What is to be written, all of it checked against the table; InvalidArgument: nothing may be written.
+Result<std::vector<Assignment>> prepare(Device &device, const std::vector<RegisterArgument> &arguments);
+
+/// EEPROM is locked under torque: refused before the first write, not in the middle of several.
+Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments);
+
+enum class Written { ReadBack, Sent };
+
+/// One write, verified and printed as it was read back, as far as the device lets itself be read. A change of ID or
+/// baud rate is followed.
+Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment);
+
+} // namespace dynascope::dxl

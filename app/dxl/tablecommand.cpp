@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/commands.h"
+#include "app/dxl/registers.h"
+#include "app/dxl/showvalue.h"
+#include "app/dxl/target.h"
+#include "core/table/units.h"
+
+namespace dynascope::dxl {
+
+namespace {
+
+QString areaName(Area area)
+{
+    switch (area) {
+    case Area::Eeprom: return QStringLiteral("EEPROM");
+    case Area::Ram: return QStringLiteral("RAM");
+    case Area::Hybrid: break;
+    }
+    return QStringLiteral("HYBRID");
+}
+
+QString accessName(const Field &field)
+{
+    return field.isWritable() ? QStringLiteral("RW") : QStringLiteral("R");
+}
+
+/// The factory's value is said of what a person may have changed.
+bool isChanged(const Reading &reading)
+{
+    const Field &field = *reading.field;
+    return field.isWritable() && field.initial && reading.raw && *reading.raw != *field.initial;
+}
+
+QStringList rowOf(Device &device, const Reading &reading)
+{
+    const Field &field = *reading.field;
+    QStringList row{QString::number(field.address), QString::number(field.size), accessName(field), field.name};
+    if (!reading.raw)
+        return row << QStringLiteral("-") << QString() << reading.error;
+    const QString number = QString::number(*reading.raw);
+    const QString value = valueText(field, device.units(field), device.table()->resolution(), *reading.raw);
+    return row << number << (isChanged(reading) ? QStringLiteral("*") : QString())
+               << (value == number ? QString() : value);
+}
+
+QString tableText(Device &device, const std::vector<Reading> &readings)
+{
+    std::vector<QStringList> rows{{QStringLiteral("Address"), QStringLiteral("Size"), QStringLiteral("Access"),
+                                   QStringLiteral("Name"), QStringLiteral("Raw"), QString(), QStringLiteral("Value")}};
+    for (const Reading &reading : readings)
+        rows.push_back(rowOf(device, reading));
+    QStringList lines = aligned(rows, {2, 3, 5, 6}).split(u'\n');
+    QString text =
+        QStringLiteral("%1, firmware %2\n%3").arg(device.name()).arg(device.found().firmware).arg(lines.takeFirst());
+    std::optional<Area> area;
+    for (qsizetype i = 0; i < lines.size(); ++i) {
+        const Area here = readings[static_cast<std::size_t>(i)].field->area;
+        if (here != area)
+            text += u'\n' + areaName(here);
+        area = here;
+        text += u'\n' + lines[i];
+    }
+    return text;
+}
+
+Document tableDocument(Device &device, const std::vector<Reading> &readings)
+{
+    std::vector<Document> registers;
+    for (const Reading &reading : readings) {
+        const Field &field = *reading.field;
+        Document one;
+        if (reading.raw) {
+            one = fieldDocument(device, field, device.units(field), *reading.raw);
+        } else {
+            one.add("id", qint64(device.id())).add("field", field.name).add("address", qint64(field.address));
+            one.add("error", reading.error);
+        }
+        one.add("size", qint64(field.size)).add("area", areaName(field.area)).add("access", accessName(field));
+        if (field.initial)
+            one.add("initial", qint64(*field.initial));
+        registers.push_back(one);
+    }
+    Document document;
+    return document.add("id", qint64(device.id()))
+        .add("model", device.table()->model())
+        .add("model_number", qint64(device.found().modelNumber))
+        .add("firmware", qint64(device.found().firmware))
+        .add("registers", registers);
+}
+
+Result<void> showTable(const Work &work, Device &device)
+{
+    if (!device.table()) {
+        return failure(ErrorKind::NotFound,
+                       QStringLiteral("%1: there is no control table for model %2; its registers can be read as "
+                                      "ADDRESS:LENGTH")
+                           .arg(device.name())
+                           .arg(device.found().modelNumber));
+    }
+    const auto readings = readFields(
+        device, [](const Field &) { return true; }, [&](double done) { work.output.progress(done, device.name()); });
+    if (!readings)
+        return tl::unexpected(readings.error());
+    work.output.result(tableText(device, *readings), tableDocument(device, *readings));
+    return {};
+}
+
+} // namespace
+
+ExitCode tableCommand(const Work &work)
+{
+    return forEachDevice(work, [&](Device &device) { return showTable(work, device); });
+}
+
+} // namespace dynascope::dxl
