@@ -3,6 +3,9 @@
 // a sentence, or what it means is within bounds. Two bytes choose model and register, one the registers that decide on
 // its unit and range; the rest is the text.
 #include "app/dxl/arguments.h"
+#include "app/dxl/composepacket.h"
+#include "app/dxl/packettext.h"
+#include "core/protocol/parser.h"
 #include "core/protocol/protocol_values.h"
 #include "core/sim/simulatedbus.h"
 #include "core/table/catalog.h"
@@ -76,6 +79,24 @@ void asArgument(const Catalog &catalog, const QString &text)
     }
 }
 
+void asPacket(const QString &text)
+{
+    if (const auto packet = dxl::composePacket(text.split(u' ', Qt::SkipEmptyParts)); accepted(packet)) {
+        Parser parser;
+        parser.feed(*packet);
+        const auto event = parser.next();
+        must(event && std::holds_alternative<Parser::Packet>(*event), "what is composed is a packet");
+        must(!dxl::PacketText().describe(*packet).isEmpty(), "and can be described");
+    }
+    for (const bool raw : {false, true}) {
+        const auto packet = dxl::packetFromHex(text, raw);
+        if (accepted(packet)) {
+            must(!packet->empty() && packet->size() <= MaximumPacketSize, "bytes that a device can take");
+            must(!dxl::PacketText().describe(*packet).isEmpty(), "whatever they are can be described");
+        }
+    }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size)
@@ -89,5 +110,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
         QString::fromUtf8(reinterpret_cast<const char *>(typed.data()), static_cast<qsizetype>(typed.size()));
     asValue(catalog, chooser, text, decider);
     asArgument(catalog, text);
+    asPacket(text);
     return 0;
 }
