@@ -94,7 +94,7 @@ void poll(const Catalog &catalog, const Kind &kind, int servos, int baud, double
     std::vector<std::uint8_t> ids;
     for (int id = 1; id <= servos; ++id)
         ids.push_back(static_cast<std::uint8_t>(id));
-    const Bytes request = encode(syncReadRequest(from, length, ids, kind.fast));
+    const Bytes request = encode(syncReadRequest(from, length, ids, kind.fast).packet);
     // What the wire takes: request, and in turn processing and reply.
     const auto count = static_cast<double>(servos);
     const std::size_t answer = kind.fast ? 8 + static_cast<std::size_t>(servos) * (length + 4)
