@@ -3,6 +3,8 @@
 #include "tests/support/workbenchfixture.h"
 #include "ui/devices/deviceactions.h"
 
+#include <QMessageBox>
+#include <QPushButton>
 #include <QSignalSpy>
 
 using namespace dynascope;
@@ -45,6 +47,44 @@ private slots:
         QTRY_COMPARE(failed.count(), 2);
         QCoreApplication::processEvents();
         QCOMPARE(failed.count(), 2);
+    }
+
+    void theLineCanFollowADeviceThatHasMoved()
+    {
+        Device &device = *m_bench->session.devices().front();
+        m_actions->setSelection({&device}, m_line, 1000000);
+        auto *action = m_actions->findChild<QAction *>(QStringLiteral("workAtBaudAction"));
+        QVERIFY(!action->isEnabled());
+        m_line->moveDevice(device, {9, 57600, 1020, 45, false, {}}); // while it is selected
+        m_actions->update();
+        QVERIFY(action->isEnabled());
+        trigger("workAtBaudAction");
+        QTRY_COMPARE(m_line->baudRate(), 57600);
+    }
+
+    void whatIsDoneIsDoneToAllThatAreSelected()
+    {
+        const std::vector<Device *> devices = m_bench->session.devices(); // of different models
+        select(devices);
+        trigger("identifyAction");
+        for (const Device *device : devices)
+            QTRY_COMPARE(device->raw(u"LED"), 1);
+        trigger("torqueOnAction");
+        auto *box = m_window->findChild<QMessageBox *>(QStringLiteral("confirmBox"));
+        QVERIFY(box);
+        for (const Device *device : devices)
+            QVERIFY2(box->text().contains(device->displayName()), qPrintable(box->text()));
+        m_actions->setSelection({devices.front()}, m_line, 1000000); // meanwhile
+        QTest::mouseClick(box->findChild<QPushButton *>(QStringLiteral("confirmButton")), Qt::LeftButton);
+        for (const Device *device : devices)
+            QTRY_VERIFY(device->isTorqueOn());
+        select(devices);
+        trigger("torqueOffAction");
+        for (const Device *device : devices)
+            QTRY_VERIFY(!device->isTorqueOn());
+        trigger("rebootAction");
+        for (const Device *device : devices)
+            QTRY_COMPARE(device->state(), Device::State::Rebooting);
     }
 
 private:

@@ -150,6 +150,8 @@ void DeviceActions::update()
             [name](const Device *device) { return device->table().find(QString::fromLatin1(name)) != nullptr; });
     };
     Device *one = single();
+    if (!this->devices().empty()) // it may have moved since it was selected
+        m_baudRate = this->devices().front()->baudRate();
     m_identify->setEnabled(has("LED"));
     m_torqueOn->setEnabled(has("Torque Enable")); // also while STOP holds: the refusal says what to do
     m_torqueOff->setEnabled(has("Torque Enable"));
