@@ -9,6 +9,8 @@
 #include <QDropEvent>
 #include <QMenu>
 #include <QSignalSpy>
+
+#include <set>
 #include <QToolButton>
 #include <QWheelEvent>
 
@@ -215,6 +217,62 @@ private slots:
         QVERIFY(bench.chart().view().step < before.step);
         QTest::mouseDClick(&bench.chart(), Qt::LeftButton, {}, centre);
         QVERIFY(bench.area.timeWindow().isLive());
+    }
+
+    void everyUnitHasAnAxis()
+    {
+        PlotBench bench;
+        bench.area.resize(900, 600);
+        const char *const names[]{"Present Position", "Present Current", "Present Velocity", "Present Temperature"};
+        QList<qreal> widths;
+        for (const char *name : names) {
+            bench.area.addTrace(bench.watch(bench.first, name));
+            widths << bench.chart().plotArea().width();
+        }
+        QCOMPARE(bench.chart().labelColumns().right, 3);
+        QVERIFY(widths[1] < widths[0] && widths[2] < widths[1] && widths[3] < widths[2]);
+        const QImage picture = bench.chart().grab().toImage();
+        const int right = int(bench.chart().plotArea().right()) + 1;
+        const int column = (bench.chart().width() - right) / 3;
+        for (int i = 0; i < 3; ++i) { // each column has ink below its heading
+            std::set<QRgb> inks;
+            for (int x = right + i * column + 4; x < right + (i + 1) * column; ++x) {
+                for (int y = 30; y < picture.height() - 30; ++y)
+                    inks.insert(picture.pixel(x, y));
+            }
+            QVERIFY(inks.size() > 1);
+        }
+    }
+
+    void negativeValuesHaveTheMinusOfTheTable()
+    {
+        PlotBench bench;
+        const Watch velocity = bench.watch(bench.first, "Present Velocity");
+        bench.area.addTrace(velocity);
+        bench.sample(velocity, 1s, -100);
+        bench.model().refreshValues();
+        const QString text = bench.model().index(0).data(TraceModel::ValueRole).toString();
+        QVERIFY2(text.startsWith(QChar(0x2212)), qPrintable(text));
+    }
+
+    void aSpanTypedTooLongIsTheLongest_data()
+    {
+        QTest::addColumn<QString>("typed");
+        QTest::addColumn<int>("seconds");
+        QTest::newRow("too long") << QStringLiteral("700") << 600;
+        QTest::newRow("much too long") << QStringLiteral("123456") << 600;
+        QTest::newRow("too short") << QStringLiteral("0") << 1;
+        QTest::newRow("as it is") << QStringLiteral("70") << 70;
+    }
+    void aSpanTypedTooLongIsTheLongest()
+    {
+        QFETCH(QString, typed);
+        PlotBench bench;
+        auto *span = bench.area.findChild<SpanBox *>();
+        span->selectAll();
+        QTest::keyClicks(span, typed);
+        QTest::keyClick(span, Qt::Key_Return);
+        QTEST(span->value(), "seconds");
     }
 
     void spanGoesFromOneSecondToTenMinutes()

@@ -30,6 +30,11 @@ QString grouped(quint64 number)
     return text;
 }
 
+QString withMinus(QString number)
+{
+    return number.replace(u'-', QChar(0x2212));
+}
+
 QString asSentence(QString text)
 {
     const QString ends = QStringLiteral(".?!…");

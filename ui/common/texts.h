@@ -7,6 +7,8 @@ namespace dynascope {
 
 /// Thousands set apart by a thin space, which doesn't depend on the locale.
 QString grouped(quint64 number);
+/// With the minus sign of typography, as all numbers in the window: tables, lists, axes.
+QString withMinus(QString number);
 /// What was seen, as a sentence to show: a capital (not of a port's name) and a full stop.
 QString asSentence(QString text);
 QString baudText(int bitsPerSecond);    ///< "57 600 bps", "1 Mbps"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/chartframe.h"
 
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <QChart>
@@ -12,6 +13,7 @@
 #include <QPainter>
 #include <QValueAxis>
 
+#include <algorithm>
 #include <cmath>
 
 namespace dynascope {
@@ -45,9 +47,37 @@ void setRange(QValueAxis *axis, double minimum, double maximum, double step)
     axis->setTickInterval(step);
 }
 
-QString labelFormat(int decimals, const QString &unit)
+/// The multiples of `step` from `low` to `high`.
+template <typename Paint>
+void eachStep(double low, double high, double step, Paint paint)
 {
-    return QStringLiteral("%.%1f%2").arg(decimals).arg(unit.isEmpty() ? unit : u' ' + unit);
+    constexpr int Most = 100;
+    if (step <= 0)
+        return;
+    const double first = std::ceil(low / step - 1e-6);
+    for (int i = 0; i < Most && (first + i) * step <= high + step * 1e-6; ++i)
+        paint((first + i) * step);
+}
+
+QString labelText(double value, int decimals)
+{
+    const QString text = withMinus(QString::number(value, 'f', decimals));
+    const bool isZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals); // else "−0.0"
+    return isZero ? QString::number(0.0, 'f', decimals) : text;
+}
+
+qreal columnWidth(const QFont &font)
+{
+    return QFontMetricsF(font).horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
+}
+
+/// As many as leave the traces room; one always.
+int rightColumns(const ChartFrame::Content &content)
+{
+    constexpr int LeastPlot = 160;
+    const qreal column = columnWidth(content.font);
+    const qreal free = content.size.width() - content.room.left * column - LeastPlot;
+    return std::min(content.room.right, std::max(1, static_cast<int>(free / column)));
 }
 
 } // namespace
@@ -72,7 +102,7 @@ ChartFrame::ChartFrame() : m_scene(std::make_unique<QGraphicsScene>()), m_chart(
         axis->setTickType(QValueAxis::TicksDynamic);
         axis->setLineVisible(axis == m_time);
         axis->setMinorGridLineVisible(false);
-        axis->setTruncateLabels(false);
+        axis->setLabelsVisible(false);
     }
     m_values[1]->setGridLineVisible(false); // one grid: the left axis'
 }
@@ -82,9 +112,9 @@ ChartFrame::~ChartFrame() = default;
 QRectF ChartFrame::plotArea(const Content &content)
 {
     const QFontMetricsF metrics(content.font);
-    const qreal labels = metrics.horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
-    const qreal left = content.hasRoom[0] ? labels : Margin;
-    const qreal right = content.hasRoom[1] ? labels : 2.0 * Margin;
+    const qreal labels = columnWidth(content.font);
+    const qreal left = content.room.left > 0 ? labels : Margin;
+    const qreal right = content.room.right > 0 ? rightColumns(content) * labels : 2.0 * Margin;
     const qreal top = metrics.height() + 1.5 * Margin;
     const qreal bottom = metrics.height() + 1.5 * Margin;
     const auto whole = [&content](qreal value) { return std::round(value * content.pixelRatio) / content.pixelRatio; };
@@ -97,8 +127,6 @@ void ChartFrame::applyColors(const Content &content)
 {
     const ThemeColors &theme = colors(content.palette);
     for (QValueAxis *axis : {m_time, m_values[0], m_values[1]}) {
-        axis->setLabelsFont(content.font);
-        axis->setLabelsBrush(theme.dimmed);
         axis->setLinePen(QPen(theme.border));
         axis->setGridLinePen(QPen(theme.grid));
     }
@@ -108,12 +136,10 @@ void ChartFrame::applyRanges(const Content &content)
 {
     const double seconds = niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps);
     setRange(m_time, content.fromSeconds, content.toSeconds, seconds);
-    m_time->setLabelFormat(labelFormat(decimalsFor(seconds), QStringLiteral("s")));
     for (std::size_t i = 0; i < m_values.size(); ++i) {
         const ValueAxis &value = content.values[i];
         m_values[i]->setVisible(value.isUsed);
         setRange(m_values[i], value.range.minimum, value.range.maximum, value.range.step);
-        m_values[i]->setLabelFormat(labelFormat(value.range.decimals, {}));
     }
     m_values[0]->setGridLineVisible(content.values[0].isUsed);
 }
@@ -143,13 +169,46 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
     painter.setPen(theme.border);
     painter.drawRect(area.adjusted(0, 0, -1, -1));
     painter.setPen(theme.dimmed);
-    const QRectF above(area.left(), 0, area.width(), area.top() - 3);
-    for (std::size_t i = 0; i < m_values.size(); ++i) {
-        if (content.values[i].isUsed)
-            painter.drawText(
-                above, Qt::AlignBottom | (i == 0 ? Qt::AlignLeft : Qt::AlignRight), content.values[i].title);
-    }
+    paintTimes(painter, content, niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps));
+    for (int axis = 0; axis < MostAxes; ++axis)
+        paintValues(painter, content, axis);
     return m_pixmap;
+}
+
+void ChartFrame::paintTimes(QPainter &painter, const Content &content, double step)
+{
+    const QRectF area = plotArea(content);
+    const double span = content.toSeconds - content.fromSeconds;
+    eachStep(content.fromSeconds, content.toSeconds, step, [&](double at) {
+        const QString text = QCoreApplication::translate("ChartFrame", "%1 s").arg(labelText(at, decimalsFor(step)));
+        const qreal x = area.left() + (at - content.fromSeconds) / span * area.width();
+        const qreal width = QFontMetricsF(content.font).horizontalAdvance(text);
+        const qreal left = std::clamp(x - width / 2, 0.0, std::max(0.0, content.size.width() - width));
+        painter.drawText(QRectF(left, area.bottom() + 3, width + 1, content.size.height() - area.bottom() - 3),
+                         Qt::AlignTop | Qt::AlignLeft | Qt::TextDontClip, text);
+    });
+}
+
+void ChartFrame::paintValues(QPainter &painter, const Content &content, int axis)
+{
+    constexpr qreal Gap = 4;
+    const ValueAxis &value = content.values[static_cast<std::size_t>(axis)];
+    if (!value.isUsed || axis > rightColumns(content))
+        return;
+    const QRectF area = plotArea(content);
+    const qreal column = columnWidth(content.font);
+    const qreal line = QFontMetricsF(content.font).height();
+    const int side = axis == 0 ? Qt::AlignRight : Qt::AlignLeft;
+    const qreal left = axis == 0 ? 0 : area.right() + Gap + (axis - 1) * column;
+    const qreal width = axis == 0 ? area.left() - Gap : column - Gap;
+    eachStep(value.range.minimum, value.range.maximum, value.range.step, [&](double at) {
+        const qreal y = area.bottom() - (at - value.range.minimum) / value.range.span() * area.height();
+        painter.drawText(QRectF(left, y - line / 2, width, line), Qt::AlignVCenter | side | Qt::TextDontClip,
+                         labelText(at, value.range.decimals));
+    });
+    const QRectF above = axis == 0 ? QRectF(area.left(), 0, area.width(), area.top() - 3)
+                                   : QRectF(left, 0, column, area.top() - 3);
+    painter.drawText(above, Qt::AlignBottom | Qt::AlignLeft | Qt::TextDontClip, value.title);
 }
 
 } // namespace dynascope

@@ -18,8 +18,21 @@ class QValueAxis;
 
 namespace dynascope {
 
-/// Axes, grid and their labels, drawn by Qt Charts into a picture that is kept until one of them changes. The chart's
-/// own series stay empty: the samples are painted over it.
+/// How many columns of value labels there is room for.
+struct LabelColumns {
+    int left = 0;
+    int right = 0;
+
+    LabelColumns unitedWith(const LabelColumns &other) const
+    {
+        return {left > other.left ? left : other.left, right > other.right ? right : other.right};
+    }
+    friend bool operator==(const LabelColumns &, const LabelColumns &) = default;
+};
+
+/// Axes and grid, drawn by Qt Charts into a picture that is kept until one of them changes. Their labels are written by
+/// us: with the window's minus sign, and for more axes than Charts lays out beside a fixed plot area. The chart's own
+/// series stay empty: the samples are painted over it.
 class ChartFrame
 {
 public:
@@ -30,6 +43,7 @@ public:
 
         friend bool operator==(const ValueAxis &, const ValueAxis &) = default;
     };
+    static constexpr int MostAxes = 4;
     /// All that the picture depends on.
     struct Content {
         QSize size; ///< in device-independent pixels
@@ -38,8 +52,8 @@ public:
         QPalette palette;
         double fromSeconds = -10; ///< of the time axis
         double toSeconds = 0;
-        std::array<ValueAxis, 2> values; ///< left, right
-        std::array<bool, 2> hasRoom{};   ///< for labels on that side, even where none are
+        std::array<ValueAxis, MostAxes> values; ///< the first at the left, the others at the right
+        LabelColumns room;                      ///< for labels, even where none are
 
         friend bool operator==(const Content &, const Content &) = default;
     };
@@ -55,6 +69,8 @@ public:
 private:
     void applyColors(const Content &content);
     void applyRanges(const Content &content);
+    static void paintTimes(QPainter &painter, const Content &content, double step);
+    static void paintValues(QPainter &painter, const Content &content, int axis);
 
     Content m_content;
     QPixmap m_pixmap;

@@ -232,11 +232,10 @@ void PlotArea::onFrame()
 
 void PlotArea::refreshAll()
 {
-    std::array<bool, 2> room{};
+    LabelColumns room;
     for (PlotPanel *panel : m_panels) {
         panel->refreshTraces();
-        const std::array<bool, 2> sides = panel->chart().labelledSides();
-        room = {room[0] || sides[0], room[1] || sides[1]};
+        room = room.unitedWith(panel->chart().labelColumns());
     }
     for (PlotPanel *panel : m_panels)
         panel->chart().setLabelRoom(room);

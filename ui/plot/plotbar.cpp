@@ -46,6 +46,33 @@ void SpanBox::stepBy(int steps)
     }
 }
 
+/// More digits than fit are taken and brought into range at the end: refused one by one they would make 70 of 700.
+QValidator::State SpanBox::validate(QString &text, int &position) const
+{
+    const QValidator::State state = QSpinBox::validate(text, position);
+    return state == QValidator::Invalid && isDigits(text) ? QValidator::Intermediate : state;
+}
+
+void SpanBox::fixup(QString &text) const
+{
+    if (isDigits(text))
+        text = QString::number(std::clamp(digitsOf(text).toInt(), minimum(), maximum()));
+    else
+        QSpinBox::fixup(text);
+}
+
+QString SpanBox::digitsOf(const QString &text) const
+{
+    return QString(text).remove(suffix()).trimmed();
+}
+
+bool SpanBox::isDigits(const QString &text) const
+{
+    const QString digits = digitsOf(text);
+    return !digits.isEmpty() && digits.size() <= 6
+        && std::ranges::all_of(digits, [](QChar letter) { return letter >= u'0' && letter <= u'9'; });
+}
+
 PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
 {
     setIconSize({16, 16});

@@ -17,6 +17,12 @@ public:
     explicit SpanBox(QWidget *parent = nullptr);
 
     void stepBy(int steps) override;
+    QValidator::State validate(QString &text, int &position) const override;
+    void fixup(QString &text) const override;
+
+private:
+    QString digitsOf(const QString &text) const; ///< without the unit
+    bool isDigits(const QString &text) const;
 };
 
 /// The tool bar above the plots. Announces what the person wants; shows what it is told.

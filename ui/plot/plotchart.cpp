@@ -66,12 +66,15 @@ void PlotChart::setAutoscale(bool on)
     update();
 }
 
-std::array<bool, 2> PlotChart::labelledSides() const
+LabelColumns PlotChart::labelColumns() const
 {
-    return {m_scales.labelled(0) != nullptr, m_scales.labelled(1) != nullptr};
+    LabelColumns columns{m_scales.labelled(0) ? 1 : 0, 0};
+    while (columns.right < ChartFrame::MostAxes - 1 && m_scales.labelled(columns.right + 1))
+        ++columns.right;
+    return columns;
 }
 
-void PlotChart::setLabelRoom(std::array<bool, 2> room)
+void PlotChart::setLabelRoom(LabelColumns room)
 {
     if (room == m_labelRoom)
         return;
@@ -79,10 +82,9 @@ void PlotChart::setLabelRoom(std::array<bool, 2> room)
     update();
 }
 
-std::array<bool, 2> PlotChart::labelRoom() const
+LabelColumns PlotChart::labelRoom() const
 {
-    const std::array<bool, 2> own = labelledSides();
-    return {own[0] || m_labelRoom[0], own[1] || m_labelRoom[1]};
+    return labelColumns().unitedWith(m_labelRoom);
 }
 
 void PlotChart::setEmptyText(const QString &text)
@@ -103,7 +105,7 @@ QRectF PlotChart::plotArea() const
     content.size = size();
     content.pixelRatio = devicePixelRatioF();
     content.font = font();
-    content.hasRoom = labelRoom();
+    content.room = labelRoom();
     return ChartFrame::plotArea(content);
 }
 
@@ -121,7 +123,7 @@ ChartFrame::Content PlotChart::frameContent(const TimeView &view) const
     content.palette = palette();
     content.fromSeconds = seconds(view.from() - view.zero);
     content.toSeconds = seconds(view.to() - view.zero);
-    content.hasRoom = labelRoom();
+    content.room = labelRoom();
     for (std::size_t i = 0; i < content.values.size(); ++i) {
         if (const PlotScales::Scale *scale = m_scales.labelled(static_cast<int>(i)))
             content.values[i] = {scale->unit, scale->scaler.range(), true};

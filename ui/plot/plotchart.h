@@ -30,8 +30,8 @@ public:
     bool isAutoscale() const { return m_autoscale; }
     /// Room for labels left and right: several charts below each other keep it alike, so that their times stand in
     /// line.
-    std::array<bool, 2> labelledSides() const;
-    void setLabelRoom(std::array<bool, 2> room);
+    LabelColumns labelColumns() const;
+    void setLabelRoom(LabelColumns room);
     void setEmptyText(const QString &text);
     void setMarked(bool marked); ///< outlined: a drop would go here
 
@@ -62,7 +62,7 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
-    std::array<bool, 2> labelRoom() const;
+    LabelColumns labelRoom() const;
     ChartFrame::Content frameContent(const TimeView &view) const;
     void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
@@ -79,7 +79,7 @@ private:
     int m_emphasized = -1;
     bool m_autoscale = true;
     bool m_marked = false;
-    std::array<bool, 2> m_labelRoom{};
+    LabelColumns m_labelRoom;
     bool m_showFocus = false; ///< it came by key
     std::optional<QPointF> m_cursor;
     std::optional<QPointF> m_dragFrom;

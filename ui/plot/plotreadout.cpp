@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/plotreadout.h"
 
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
 #include <QCoreApplication>
@@ -25,7 +26,7 @@ QString timeText(const TimeView &view, LineTime at)
 {
     const double seconds = std::chrono::duration<double>(at - view.zero).count();
     return QCoreApplication::translate("PlotReadout", "%1 s")
-        .arg(seconds, 0, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2);
+        .arg(withMinus(QString::number(seconds, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2)));
 }
 
 } // namespace
@@ -74,7 +75,7 @@ void PlotReadout::paint(QPainter &painter) const
     for (const Row &row : rows) {
         names = std::max(
             names, std::min<qreal>(text.horizontalAdvance(row.trace->label), std::min(240.0, area.width() * 0.4)));
-        values = std::max(values, digits.horizontalAdvance(QString::number(row.value, 'f', row.trace->decimals)));
+        values = std::max(values, digits.horizontalAdvance(withMinus(QString::number(row.value, 'f', row.trace->decimals))));
         units = std::max(units, text.horizontalAdvance(row.trace->unit));
     }
     const qreal width = 5 * Padding + Swatch + names + values + units;
@@ -101,7 +102,8 @@ void PlotReadout::paint(QPainter &painter) const
         const QFont font = painter.font();
         painter.setFont(numbers);
         painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - Padding / 2, line),
-            Qt::AlignVCenter | Qt::AlignRight, QString::number(row.value, 'f', row.trace->decimals));
+            Qt::AlignVCenter | Qt::AlignRight,
+            withMinus(QString::number(row.value, 'f', row.trace->decimals)));
         painter.setFont(font);
         painter.setPen(theme.dimmed);
         painter.drawText(

@@ -8,8 +8,7 @@
 
 namespace dynascope {
 
-/// A value axis for each unit among the traces. The first two in sight get labels, left and right; further ones only
-/// scale.
+/// A value axis for each unit among the traces. The first ones in sight get labels, one left and the others right.
 class PlotScales
 {
 public:
@@ -27,7 +26,7 @@ public:
     void refit();
 
     const AxisRange &range(const QString &unit) const;
-    /// 0 left, 1 right; none where so many units are not in sight.
+    /// 0 left, from 1 on right; none where so many units are not in sight.
     const Scale *labelled(int side) const;
     std::vector<Scale> &scales() { return m_scales; }
 

@@ -178,7 +178,8 @@ void TraceModel::refreshValues()
         const History *history = m_monitor.history(trace.watch);
         QString value;
         if (device && !trace.gone && history && !history->isEmpty())
-            value = QString::number(history->last().raw * trace.scale + trace.offset, 'f', trace.decimals);
+            value = withMinus(
+                QString::number(history->last().raw * trace.scale + trace.offset, 'f', trace.decimals));
         if (value == trace.value)
             continue;
         trace.value = value;
