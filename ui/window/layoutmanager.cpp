@@ -14,6 +14,7 @@ namespace dynascope {
 namespace {
 
 constexpr QSize DefaultSize(1440, 900);
+constexpr QSize Frame(16, 48); ///< what a window manager puts around it; not known before it is shown
 constexpr int WideEnough = 1200; ///< from here on table and plots fit beside each other
 constexpr int DevicesWidth = 248;
 constexpr int TableWidth = 826; ///< shows every column of one device
@@ -130,7 +131,7 @@ void LayoutManager::storeInner()
 
 void LayoutManager::setDefaultSizes()
 {
-    const QSize screen = m_window.screen() ? m_window.screen()->availableSize() : DefaultSize;
+    const QSize screen = m_window.screen() ? m_window.screen()->availableSize() - Frame : DefaultSize;
     m_window.resize(DefaultSize.boundedTo(screen).expandedTo(m_window.minimumSize()));
     m_outer.setSizes({DevicesWidth, m_window.width() - DevicesWidth});
 }
