@@ -134,6 +134,20 @@ private slots:
         QVERIFY(bar.isHidden());
     }
 
+    void theTroubleOfATopicGoes()
+    {
+        MessageBar bar;
+        bar.post({MessageKind::Error, QStringLiteral("it failed"), {}, {}, QStringLiteral("device 1")});
+        bar.post({MessageKind::Warning, QStringLiteral("another's"), {}, {}, QStringLiteral("device 2")});
+        bar.retractTopic(QStringLiteral("device 3"));
+        QCOMPARE(bar.text(), QStringLiteral("it failed"));
+        bar.retractTopic(QStringLiteral("device 1"));
+        QCOMPARE(bar.text(), QStringLiteral("another's"));
+        bar.post({MessageKind::Success, QStringLiteral("it worked"), {}, {}, QStringLiteral("device 2")});
+        bar.retractTopic(QStringLiteral("device 2"));
+        QCOMPARE(bar.text(), QStringLiteral("it worked")); // which is no trouble
+    }
+
     void ownerDecidesWhereItCantBeDismissed()
     {
         MessageBar bar;

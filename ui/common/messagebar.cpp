@@ -190,6 +190,17 @@ void MessageBar::retract(const QString &text)
         dismiss();
 }
 
+void MessageBar::retractTopic(const QString &topic)
+{
+    const auto isOver = [&topic](const std::optional<Message> &message) {
+        return message && message->topic == topic && message->kind >= MessageKind::Warning;
+    };
+    if (isOver(m_waiting))
+        m_waiting.reset();
+    if (isOver(m_current))
+        dismiss();
+}
+
 void MessageBar::changeEvent(QEvent *event)
 {
     if (event->type() == QEvent::PaletteChange && m_current) {

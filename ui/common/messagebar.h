@@ -38,6 +38,8 @@ public:
     void dismiss(); ///< shows what waits, else hides
     void clear();   ///< also what waits
     void retract(const QString &text); ///< what this message said is no longer so; nothing where it isn't here
+    /// The trouble that was said of it is over. What went well stays for its time.
+    void retractTopic(const QString &topic);
     /// Off for a bar whose owner alone decides when it goes.
     void setDismissable(bool dismissable);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/connection/connector.h"
 
+#include "core/bus/networkaddress_values.h"
 #include "core/session/stopcontrol.h"
 #include "ui/common/texts.h"
 
@@ -8,6 +9,7 @@
 #include <QUrl>
 
 #include <algorithm>
+#include <utility>
 
 namespace dynascope {
 
@@ -111,6 +113,7 @@ void Connector::scan(LineSession &line, const ScanRange &range)
         return;
     }
     m_scanned = &line;
+    m_rates = range.bauds;
     m_workbench.scanner.start(line, range);
 }
 
@@ -138,7 +141,8 @@ void Connector::onState(LineSession *line)
 
 void Connector::onOpen(LineSession *line)
 {
-    if (const QString refused = m_refused.take(line->name()); !refused.isEmpty())
+    // Whichever port didn't open before: somebody has found another way.
+    for (const QString &refused : std::exchange(m_refused, {}))
         emit retracted(refused);
     if (m_lost.contains(line)) {
         emit retracted(m_lost.take(line));
@@ -224,15 +228,33 @@ void Connector::reportScan(int found, const QString &trouble)
     } else if (found == 0) {
         const QString port = portText(m_scanned->name());
         emit posted({MessageKind::Warning,
-            tr("No device answered on %1. Is the servo powered? Try more baud rates.").arg(port), {}, {}, topic});
+            tr("No device answered on %1 at %2. Is the servo powered? Try more baud rates.").arg(port, ratesText()), {},
+            {}, topic});
     } else {
         emit posted({MessageKind::Success, found == 1 ? tr("1 device found") : tr("%1 devices found").arg(found), {}, {},
             topic});
     }
 }
 
+QString Connector::ratesText() const
+{
+    if (m_scanned && isRateTheServers(m_scanned->name()))
+        return tr("the server's rate");
+    QStringList rates;
+    for (const int rate : m_rates)
+        rates << baudText(rate);
+    if (rates.size() == 1)
+        return rates.front();
+    const QString last = rates.takeLast();
+    return tr("%1 and %2").arg(rates.join(QStringLiteral(", ")), last);
+}
+
 void Connector::forget(LineSession *line)
 {
+    if (m_opened.contains(line)) { // why one never opened is still to be read
+        emit retractedTopic(portTopic(*line));
+        emit retractedTopic(scanTopic(*line));
+    }
     m_opened.remove(line);
     std::erase_if(m_waiting, [line](const Waiting &waiting) { return waiting.line == line; });
     if (m_lost.contains(line))

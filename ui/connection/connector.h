@@ -43,6 +43,7 @@ signals:
     void changed(); ///< a line came, went, or is in another state
     void posted(const dynascope::Message &message);
     void retracted(const QString &text);                        ///< what this message said is no longer so
+    void retractedTopic(const QString &topic);                  ///< nor is any trouble said of this
     void portsChanged();                                        ///< something was plugged in or pulled out
     void moved(const QString &formerPort, const QString &port); ///< a line's adapter has come back elsewhere
 
@@ -54,6 +55,7 @@ private:
     void onRefused(LineSession *line);
     void onScanned(int found, const QString &trouble);
     void reportScan(int found, const QString &trouble);
+    QString ratesText() const;
     void scanNext();
     void forget(LineSession *line);
     void onBack(LineSession *line, const QString &formerPort);
@@ -61,6 +63,7 @@ private:
 
     Workbench m_workbench;
     QPointer<LineSession> m_scanned;
+    std::vector<int> m_rates; ///< at which it is scanned
     struct Waiting {
         QPointer<LineSession> line;
         ScanRange range;

@@ -7,6 +7,7 @@
 #include <QObject>
 
 #include <functional>
+#include <set>
 
 namespace dynascope {
 
@@ -26,11 +27,15 @@ public:
 private:
     void onFailed(Device *device, const Error &error, int field);
     void onStop();
+    void follow(LineSession *line);
+    void onDevice(Device *device);
+    QString nameOf(const Device &device) const;
 
     Workbench m_workbench;
     MessageBar &m_messages;
     MessageBar &m_stopBar;
     IsShown m_isShown;
+    std::set<DeviceKey> m_silent; ///< don't answer now
 };
 
 } // namespace dynascope
