@@ -168,9 +168,8 @@ void MainWindow::connectDevices()
     connect(&m_devices->actions(), &DeviceActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
     connect(&m_devices->actions(), &DeviceActions::torqueEnabled, m_guard, &TorqueGuard::noteEnabled);
     connect(m_guard, &TorqueGuard::closeAgreed, this, &QWidget::close, Qt::QueuedConnection);
-    const auto inform = [this](const QString &text) { m_messages->post(MessageKind::Info, text); };
-    connect(m_devices, &DevicePanel::message, this, inform);
-    connect(m_table, &TablePanel::message, this, inform);
+    connect(m_table, &TablePanel::notWritten, this,
+            [this](const QString &text) { m_messages->post(MessageKind::Error, text); });
     connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 
@@ -231,11 +230,13 @@ void MainWindow::onLines()
 void MainWindow::onSelection()
 {
     std::vector<Device *> devices = m_devices->selectedDevices();
+    const std::size_t selected = devices.size();
     // The table shows one model at a time: that of the first.
     std::erase_if(devices, [first = devices.empty() ? nullptr : devices.front()](const Device *device) {
         return &device->table() != &first->table();
     });
     m_table->setDevices(devices);
+    m_table->setSelected(selected);
     m_workbench.monitor.select(devices);
     m_firstRead->show(devices);
 }

@@ -32,7 +32,6 @@ signals:
     void scanRequested(); ///< from the empty view
     void connectRequested();
     void selectionChanged();
-    void message(const QString &text);
 
 private:
     QWidget *makeHeader();

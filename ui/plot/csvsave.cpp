@@ -91,8 +91,8 @@ void CsvSave::copySome()
     std::size_t room = SliceSamples;
     for (std::size_t i = 0; i < m_parts.size() && room > 0 && !m_work->cancelled; ++i) {
         if (!copy(m_parts[i], m_work->columns[i], room)) {
-            m_work->result = failure(ErrorKind::Cancelled, tr("%1 was not written: its samples were cleared meanwhile")
-                                                               .arg(QDir::toNativeSeparators(m_work->path)));
+            m_work->result = failure(ErrorKind::NotFound, tr("%1 was not written: its samples were cleared meanwhile")
+                                                              .arg(QDir::toNativeSeparators(m_work->path)));
             return finish();
         }
     }

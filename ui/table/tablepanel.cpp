@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/tablepanel.h"
 
+#include "ui/common/elidedlabel.h"
 #include "ui/common/loweredge.h"
 #include "ui/table/editflow.h"
 #include "ui/table/fielddelegate.h"
@@ -76,6 +77,10 @@ void TablePanel::build()
     m_view = new TableView(grid);
     m_view->setModel(m_filter);
     m_view->setItemDelegate(m_delegate);
+    m_others = new ElidedLabel(grid);
+    m_others->setObjectName(QStringLiteral("othersLabel"));
+    m_others->setContentsMargins(12, 0, 12, 6);
+    m_others->hide();
     m_lockBar = new LockBar(grid);
     (new LowerEdge(*m_lockBar, *m_view->viewport()))->spare([view = m_view] {
         return view->visualRect(view->currentIndex());
@@ -86,6 +91,7 @@ void TablePanel::build()
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_tools);
+    layout->addWidget(m_others);
     layout->addWidget(m_view, 1);
     layout->addWidget(makeRule(grid));
     layout->addWidget(m_goals);
@@ -106,7 +112,7 @@ void TablePanel::connectParts()
     connect(m_model, &FieldTableModel::unplotRequested, this, &TablePanel::unplotRequested);
     connect(m_model, &FieldTableModel::updated, this, [this] { m_help->showCell(valueCell()); });
     connect(m_model, &QAbstractItemModel::modelReset, this, [this] { setEmptyText(); });
-    connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::message);
+    connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::notWritten);
     connect(m_view, &TableView::plotToggled, this, &TablePanel::togglePlot);
     connect(m_view, &QWidget::customContextMenuRequested, this, &TablePanel::showMenu);
     connect(m_view->selectionModel(), &QItemSelectionModel::currentChanged, this, &TablePanel::currentChanged);
@@ -136,7 +142,7 @@ void TablePanel::connectParts()
 
 void TablePanel::addShortcuts()
 {
-    auto *find = new QShortcut(QKeySequence::Find, this, nullptr, nullptr, Qt::WidgetWithChildrenShortcut);
+    auto *find = new QShortcut(QKeySequence::Find, this, nullptr, nullptr, Qt::WindowShortcut);
     connect(find, &QShortcut::activated, this, [this] {
         m_tools->search()->setFocus(Qt::ShortcutFocusReason);
         m_tools->search()->selectAll();
@@ -164,6 +170,16 @@ void TablePanel::setDevices(const std::vector<Device *> &devices)
     selectField(name);
     m_view->verticalScrollBar()->setValue(scrolled);
     currentChanged();
+}
+
+void TablePanel::setSelected(std::size_t count)
+{
+    const std::size_t shown = m_model->devices().size();
+    m_others->setText(
+        tr("%1 of %2 selected: the others have another control table").arg(shown).arg(std::max(shown, count)));
+    m_others->setToolTip(tr("What is edited here is written to those whose columns are shown. Torque, LED, reboot and "
+                            "Read all act on every selected device."));
+    m_others->setVisible(shown > 0 && count > shown);
 }
 
 void TablePanel::selectField(const QString &name)

@@ -15,6 +15,7 @@ class QStackedLayout;
 namespace dynascope {
 
 class EditFlow;
+class ElidedLabel;
 class FieldDelegate;
 class FieldFilterModel;
 class FieldTableModel;
@@ -39,6 +40,7 @@ public:
     ~TablePanel() override;
 
     void setDevices(const std::vector<Device *> &devices); ///< of one model; empty shows what belongs here
+    void setSelected(std::size_t count); ///< where that is more than the table shows, it says so
     void refreshWatches();                                 ///< what is plotted has changed
     void setAngleUnit(AngleUnit unit);
 
@@ -50,7 +52,7 @@ signals:
     void unplotRequested(const dynascope::Watch &watch);
     void changeIdRequested(dynascope::Device *device); ///< the register is changed by a procedure, not by a write
     void changeBaudRequested(dynascope::Device *device);
-    void message(const QString &text); ///< for the message bar
+    void notWritten(const QString &text); ///< what was typed, and why; for the message bar
 
 protected:
     void showEvent(QShowEvent *event) override;
@@ -75,6 +77,7 @@ private:
     FieldWordsModel *m_words;
     FieldFilterModel *m_filter;
     TableTools *m_tools;
+    ElidedLabel *m_others; ///< what is selected, but not shown
     TableView *m_view;
     FieldDelegate *m_delegate;
     LockBar *m_lockBar;
