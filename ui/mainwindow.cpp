@@ -136,13 +136,14 @@ void MainWindow::connectConnection()
     const auto connectHere = [this](const QString &port) { connectTo(port, 0); };
     connect(m_connector, &Connector::posted, m_messages, qOverload<Message>(&MessageBar::post));
     connect(m_connector, &Connector::retracted, m_messages, &MessageBar::retract);
+    connect(m_connector, &Connector::retractedTopic, m_messages, &MessageBar::retractTopic);
     connect(m_connector, &Connector::changed, this, &MainWindow::onLines);
     connect(m_menus, &Menus::reopeningToggled, m_connector, &Connector::setReopening);
     connect(m_bar, &ConnectionBar::currentLineChanged, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::finished, this, &MainWindow::onLines);
     connect(&m_workbench.stop, &StopControl::changed, this, &MainWindow::onLines);
     connect(&m_workbench.scanner, &Scanner::progressChanged, this, &MainWindow::onLines);
-    connect(m_welcome, &WelcomePage::choosePortRequested, m_bar, &ConnectionBar::choosePort);
+    connect(m_welcome, &WelcomePage::choosePortRequested, m_bar, &ConnectionBar::showPorts);
     connect(m_welcome, &WelcomePage::connectRequested, this, connectHere);
     connect(m_menus, &Menus::choosePortRequested, m_bar, &ConnectionBar::choosePort);
     connect(m_menus, &Menus::toggleConnectionRequested, m_bar, &ConnectionBar::toggleConnection);
@@ -163,8 +164,11 @@ void MainWindow::connectConnection()
 void MainWindow::connectDevices()
 {
     connect(m_devices, &DevicePanel::selectionChanged, this, &MainWindow::onSelection);
-    connect(m_devices, &DevicePanel::connectRequested, m_bar, &ConnectionBar::choosePort);
+    connect(m_devices, &DevicePanel::connectRequested, m_bar, &ConnectionBar::showPorts);
     connect(m_devices, &DevicePanel::scanRequested, m_bar, &ConnectionBar::startScan);
+    connect(m_devices, &DevicePanel::disconnectRequested, m_connector, [this](LineSession *line) {
+        m_connector->disconnectFrom(*line);
+    });
     connect(&m_devices->actions(), &DeviceActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
     connect(&m_devices->actions(), &DeviceActions::torqueEnabled, m_guard, &TorqueGuard::noteEnabled);
     connect(m_guard, &TorqueGuard::closeAgreed, this, &QWidget::close, Qt::QueuedConnection);
@@ -200,9 +204,10 @@ void MainWindow::setScheme(ColorScheme scheme)
 void MainWindow::onLines()
 {
     LineSession *line = m_bar->currentLine();
+    LineSession *shown = shownLine();
     const bool open = line && line->state() == BusThread::State::Open;
-    m_status->setLine(line);
-    m_health->setLine(line);
+    m_status->setLine(shown);
+    m_health->setLine(shown);
     const bool broken =
         line && (line->state() == BusThread::State::Lost || line->state() == BusThread::State::Closed);
     m_menus->setConnection(!line    ? Menus::Connection::None
@@ -224,7 +229,18 @@ void MainWindow::onLines()
         else
             m_welcome->setFocus();
     }
-    setWindowTitle(line ? tr("%1 – Dynascope").arg(line->name()) : tr("Dynascope"));
+    setWindowTitle(shown ? tr("%1 – Dynascope").arg(shown->name()) : tr("Dynascope"));
+}
+
+/// That of the port which is chosen, else the selected device's, else the only one.
+LineSession *MainWindow::shownLine() const
+{
+    if (LineSession *line = m_bar->currentLine())
+        return line;
+    if (LineSession *line = m_devices->selectedLine())
+        return line;
+    const auto &lines = m_workbench.session.lines();
+    return lines.size() == 1 ? lines.front().get() : nullptr;
 }
 
 void MainWindow::onSelection()
@@ -235,6 +251,8 @@ void MainWindow::onSelection()
     std::erase_if(devices, [first = devices.empty() ? nullptr : devices.front()](const Device *device) {
         return &device->table() != &first->table();
     });
+    if (LineSession *line = m_devices->selectedLine())
+        m_bar->showLine(*line);
     m_table->setDevices(devices);
     m_table->setSelected(selected);
     m_workbench.monitor.select(devices);

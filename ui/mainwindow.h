@@ -58,6 +58,7 @@ private:
     void connectPlots();
     void onSelection();
     void onLines();
+    LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
     void focusPane(int pane);
     void restoreParts();
     void saveParts() const;

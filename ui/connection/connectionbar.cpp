@@ -175,12 +175,25 @@ void ConnectionBar::setPort(const QString &port, int baudRate)
         m_baud->setBaudRate(baudRate);
 }
 
+void ConnectionBar::showLine(LineSession &line)
+{
+    const bool typing = m_port->lineEdit()->hasFocus() && m_port->lineEdit()->isModified();
+    if (!typing && currentLine() != &line)
+        setPort(line.name(), line.baudRate());
+}
+
 QWidget *ConnectionBar::stopButton() const
 {
     return m_stop;
 }
 
 void ConnectionBar::choosePort()
+{
+    m_port->lineEdit()->setFocus(Qt::ShortcutFocusReason);
+    m_port->lineEdit()->selectAll();
+}
+
+void ConnectionBar::showPorts()
 {
     m_port->setFocus(Qt::ShortcutFocusReason);
     m_port->showPopup();
@@ -234,6 +247,10 @@ void ConnectionBar::onMoved(const QString &formerPort, const QString &port)
 
 void ConnectionBar::update()
 {
+    QStringList names;
+    for (const auto &each : m_workbench.session.lines())
+        names << each->name();
+    m_port->setOpenPorts(names);
     LineSession *line = currentLine();
     const auto state = line ? line->state() : BusThread::State::Closed;
     const bool open = line && state == BusThread::State::Open;
@@ -256,8 +273,7 @@ void ConnectionBar::update()
     const QString icons = open ? QStringLiteral("success") : broken ? QStringLiteral("error") : QStringLiteral("plug");
     const IconTint tint = open ? IconTint::Good : broken ? IconTint::Bad : IconTint::Dimmed;
     m_stateIcon->setPixmap(icon(icons, tint).pixmap(QSize(16, 16), devicePixelRatioF()));
-    m_state->setText(line ? lineStateText(*line)
-                          : (m_port->port().isEmpty() ? tr("Choose a port") : tr("Not connected")));
+    m_state->setText(stateText(line));
 
     if (open && (line != m_shown || line->baudRate() != m_shownBaud)) {
         m_shownBaud = line->baudRate();
@@ -265,6 +281,21 @@ void ConnectionBar::update()
     }
     m_shown = open ? line : nullptr;
     emit currentLineChanged();
+}
+
+/// Of the port that is chosen; where that isn't open, which ones are.
+QString ConnectionBar::stateText(const LineSession *line) const
+{
+    if (line)
+        return lineStateText(*line);
+    QStringList open;
+    for (const auto &other : m_workbench.session.lines()) {
+        if (other->state() == BusThread::State::Open)
+            open << portText(other->name());
+    }
+    if (!open.isEmpty())
+        return tr("Not connected; open is %1").arg(open.join(QStringLiteral(", ")));
+    return m_port->port().isEmpty() ? tr("Choose a port") : tr("Not connected");
 }
 
 void ConnectionBar::changeEvent(QEvent *event)

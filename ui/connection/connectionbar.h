@@ -32,7 +32,9 @@ public:
     /// The line of the port that is chosen; nullptr where it isn't open.
     LineSession *currentLine() const;
     void setPort(const QString &port, int baudRate);
-    void choosePort(); ///< opens the list
+    void showLine(LineSession &line); ///< chooses its port, unless another is being typed
+    void choosePort(); ///< the port is typed over; Return connects
+    void showPorts();  ///< opens the list
     QWidget *stopButton() const;
 
 public slots:
@@ -51,6 +53,7 @@ private:
     void makeButtons();
     void addAll();
     void update();
+    QString stateText(const LineSession *line) const;
     void updateScan();
     void onBaudChosen(int bitsPerSecond);
     void onMoved(const QString &formerPort, const QString &port);

@@ -61,11 +61,26 @@ std::vector<PortCombo::Entry> PortCombo::entries() const
                                 : QStringLiteral("%1 (%2)").arg(info.description, info.serialNumber);
         entries.push_back({info.name, tip});
     }
+    const auto isListed = [&entries](const QString &name) {
+        return std::ranges::find(entries, name, &Entry::name) != entries.end();
+    };
+    for (const QString &name : m_open) {
+        if (!isListed(name))
+            entries.push_back({name, tr("Open now")});
+    }
     for (const QString &name : Connector::recentPorts()) {
-        if (NetworkAddress::isNetworkName(name))
+        if (NetworkAddress::isNetworkName(name) && !isListed(name))
             entries.push_back({name, tr("Serial server, used before")});
     }
     return entries;
+}
+
+void PortCombo::setOpenPorts(const QStringList &names)
+{
+    if (names == m_open)
+        return;
+    m_open = names;
+    refresh();
 }
 
 /// Entry by entry: an open list stays open, and what is being typed stays as it is.

@@ -9,7 +9,7 @@ namespace dynascope {
 
 class PortList;
 
-/// The ports there are, and the serial servers used before; any other path or address can be typed. refresh() brings it
+/// The ports there are, those that are open, and the serial servers used before; any other path or address can be typed. refresh() brings it
 /// up to date, also while it is open; opening it does.
 class PortCombo : public QComboBox
 {
@@ -21,6 +21,7 @@ public:
     QString port() const; ///< what LineFactory::open takes
     void setPort(const QString &name);
     void refresh();
+    void setOpenPorts(const QStringList &names); ///< listed as long as they are open, wherever they come from
 
     void showPopup() override;
 
@@ -36,6 +37,7 @@ private:
     void place(const Entry &entry, int at);
 
     PortList &m_ports;
+    QStringList m_open;
 };
 
 } // namespace dynascope

@@ -3,6 +3,7 @@
 
 #include "core/session/scanner.h"
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicedelegate.h"
 #include "ui/devices/devicetreemodel.h"
@@ -145,16 +146,24 @@ QWidget *DevicePanel::makeEmptyView()
         else
             emit scanRequested();
     });
+    m_emptyClose = new QPushButton(icon(QStringLiteral("disconnect")), tr("Disconnect"), view);
+    m_emptyClose->setObjectName(QStringLiteral("emptyDisconnectButton"));
+    connect(m_emptyClose, &QPushButton::clicked, this, [this] {
+        if (!m_workbench.session.lines().empty())
+            emit disconnectRequested(m_workbench.session.lines().front().get());
+    });
     layout->addStretch(1);
     layout->addWidget(m_emptyText);
     layout->addWidget(m_emptyAction, 0, Qt::AlignHCenter);
+    layout->addWidget(m_emptyClose, 0, Qt::AlignHCenter);
     layout->addStretch(2);
     return view;
 }
 
 void DevicePanel::updateEmptyView()
 {
-    const bool any = !m_workbench.session.devices().empty();
+    // Of several lines each can be closed in the tree, though nobody was found on any.
+    const bool any = !m_workbench.session.devices().empty() || m_workbench.session.lines().size() > 1;
     m_stack->setCurrentIndex(any ? 1 : 0);
     if (any)
         return;
@@ -166,6 +175,7 @@ void DevicePanel::updateEmptyView()
     m_emptyAction->setText(connected ? tr("Scan") : tr("Connect a port"));
     m_emptyAction->setIcon(icon(connected ? QStringLiteral("scan") : QStringLiteral("connect")));
     m_emptyAction->setVisible(!scanning);
+    m_emptyClose->setVisible(connected && !scanning);
 }
 
 std::vector<Device *> DevicePanel::selectedDevices() const
@@ -177,6 +187,12 @@ std::vector<Device *> DevicePanel::selectedDevices() const
             devices.push_back(device);
     }
     return devices;
+}
+
+LineSession *DevicePanel::selectedLine() const
+{
+    const QModelIndexList rows = m_tree->selectionModel()->selectedRows();
+    return rows.isEmpty() ? nullptr : m_model->line(rows.first());
 }
 
 void DevicePanel::selectDevice(Device *device)
@@ -214,6 +230,17 @@ void DevicePanel::showContextMenu(const QPoint &position)
             menu->addAction(action);
         else
             menu->addSeparator();
+    }
+    if (LineSession *line = selectedLine()) {
+        menu->addSeparator();
+        QAction *close = menu->addAction(icon(QStringLiteral("disconnect")),
+                                         tr("Disconnect %1").arg(plainLabel(portText(line->name()))));
+        close->setObjectName(QStringLiteral("disconnectLineAction"));
+        close->setToolTip(tr("Close this port. Torque stays as it is."));
+        connect(close, &QAction::triggered, this, [this, where = QPointer<LineSession>(line)] {
+            if (where)
+                emit disconnectRequested(where);
+        });
     }
     menu->popup(m_tree->viewport()->mapToGlobal(position));
 }

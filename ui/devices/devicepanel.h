@@ -26,11 +26,13 @@ public:
 
     std::vector<Device *> selectedDevices() const;
     void selectDevice(Device *device);
+    LineSession *selectedLine() const; ///< of whatever row is selected; nullptr without one
     DeviceActions &actions() const { return *m_actions; }
 
 signals:
     void scanRequested(); ///< from the empty view
     void connectRequested();
+    void disconnectRequested(dynascope::LineSession *line);
     void selectionChanged();
 
 private:
@@ -50,6 +52,7 @@ private:
     QWidget *m_row;
     QLabel *m_emptyText;
     QPushButton *m_emptyAction;
+    QPushButton *m_emptyClose; ///< lets go of a line on which nobody was found
 };
 
 } // namespace dynascope
