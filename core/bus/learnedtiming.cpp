@@ -10,7 +10,8 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr int EnoughOfDevice = 8;
-constexpr int EnoughOfLine = 32;
+constexpr int EnoughOfLine = 16;
+constexpr quint64 EnoughOfOthers = 8;
 constexpr int OftenMissed = 3;
 constexpr int Fading = 256;
 constexpr LineTime Step = 10ms; ///< by which one answer can be later than all before it
@@ -39,6 +40,7 @@ void LearnedTiming::Estimate::add(LineTime sample)
 void LearnedTiming::learn(std::uint8_t id, LineTime lateness)
 {
     m_misses[id] = 0;
+    ++m_answers;
     const auto within = [lateness](const Estimate &estimate) {
         const LineTime longest = estimate.samples > 0 ? std::min(estimate.longest() + Step, Longest) : Longest;
         return std::clamp(lateness, -Longest, longest);
@@ -51,12 +53,16 @@ LineTime LearnedTiming::allowance(std::uint8_t id, LineTime allowance) const
 {
     const Estimate &device = m_devices[id];
     const bool knowsDevice = device.samples >= EnoughOfDevice;
-    if (!knowsDevice && m_line.samples < EnoughOfLine)
+    const bool isMissed = m_misses[id] >= OftenMissed;
+    const bool othersAnswer = isMissed && m_answers - m_answersBefore[id] >= EnoughOfOthers;
+    if (!knowsDevice && !othersAnswer && m_line.samples < EnoughOfLine)
         return allowance;
-    const Estimate &known = knowsDevice ? device : m_line;
+    LineTime longest = knowsDevice ? device.longest() : m_line.longest();
+    if (othersAnswer) // as slow as the adapter may have become meanwhile
+        longest = std::max(longest, m_line.longest());
     const LineTime margin = jitter(allowance);
-    const LineTime learned = std::clamp(known.longest() + margin, margin, std::max(allowance, Longest));
-    return m_misses[id] < OftenMissed ? learned : std::max(learned, allowance);
+    const LineTime learned = std::clamp(longest + margin, margin, std::max(allowance, Longest));
+    return isMissed && !othersAnswer ? std::max(learned, allowance) : learned;
 }
 
 } // namespace dynascope

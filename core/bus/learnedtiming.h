@@ -21,8 +21,12 @@ public:
     /// as a step only: the next one alike another.
     void learn(std::uint8_t id, LineTime lateness);
     /// No answer of `id` came. Missed often in a row, a device gets the line's own time again: perhaps the adapter has
-    /// become slow.
-    void missed(std::uint8_t id) { ++m_misses[id]; }
+    /// become slow. But not where others have answered since: then the adapter is as it was, and the device is missing.
+    void missed(std::uint8_t id)
+    {
+        if (m_misses[id]++ == 0)
+            m_answersBefore[id] = m_answers;
+    }
 
     /// How much later than its registers say an answer of `id` is to be waited for. `allowance` is what the line itself
     /// asks for, and what holds until enough has been seen.
@@ -41,6 +45,8 @@ private:
     Estimate m_line;
     std::array<Estimate, Ids> m_devices{};
     std::array<int, Ids> m_misses{}; ///< in a row
+    quint64 m_answers = 0;           ///< of anybody
+    std::array<quint64, Ids> m_answersBefore{}; ///< when the first of the misses came
 };
 
 } // namespace dynascope

@@ -50,6 +50,63 @@ private slots:
         QVERIFY(timing.allowance(1, 21ms) < 3ms);
     }
 
+    void missedOftenWhileOthersAnswerItIsMissing()
+    {
+        LearnedTiming timing;
+        for (int i = 0; i < 100; ++i) {
+            timing.learn(1, 300us);
+            timing.learn(2, 300us);
+        }
+        for (int i = 0; i < 3; ++i) {
+            timing.missed(1);
+            timing.missed(3); // was never there
+        }
+        QCOMPARE(timing.allowance(1, 21ms), LineTime(21ms));
+        QCOMPARE(timing.allowance(3, 21ms), LineTime(21ms));
+        for (int i = 0; i < 8; ++i)
+            timing.learn(2, 300us);
+        QVERIFY(timing.allowance(1, 21ms) < 3ms);
+        QVERIFY(timing.allowance(3, 21ms) < 3ms);
+        for (int i = 0; i < 8; ++i)
+            timing.learn(2, 9ms); // in time or behind it: the adapter did become slower
+        QVERIFY(timing.allowance(1, 21ms) > 9ms);
+    }
+
+    // Five of eight that stand in the list are not there, and the line might be slow.
+    void absentDevicesCostWhatTheLineIsLike()
+    {
+        FakeLine line;
+        line.allowance = 50ms;
+        FakeServos servos(line);
+        PollPlan plan;
+        for (const std::uint8_t id : {1, 2, 3, 4, 5, 6, 7, 8}) {
+            if (id < 4)
+                servos.servos[id];
+            Traits traits;
+            traits.id = id;
+            plan.traits.push_back(traits);
+            plan.spans.push_back({id, {id, 132, 4}, 0ms});
+        }
+        Bus bus(line);
+        Poller poller(bus);
+        poller.setPlan(plan);
+        const auto cyclesIn = [&](LineTime duration) {
+            int cycles = 0;
+            for (const LineTime end = line.now() + duration; line.now() < end; ++cycles) {
+                if (!poller.runCycle())
+                    return -1;
+            }
+            return cycles;
+        };
+        const int first = cyclesIn(1s);
+        const int second = cyclesIn(1s);
+        const int tenth = cyclesIn(9s) / 9;
+        qInfo("%d, %d and %d a second", first, second, tenth);
+        QVERIFY(first >= 4); // nothing is known of the line yet
+        QVERIFY(second > 250);
+        QVERIFY(tenth > 400);
+    }
+
     // An adapter that turns slow in mid-poll (its latency timer set back, a busy network) loses nobody for good.
     void anAdapterThatTurnsSlowIsFollowed()
     {
