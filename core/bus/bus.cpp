@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/bus.h"
 
+#include "core/bus/asking.h"
 #include "core/bus/buswaiting.h"
 #include "core/bus/messages.h"
 #include "core/bus/remainder.h"
@@ -78,7 +79,10 @@ Result<ExchangeResult> Bus::exchange(const Request &request, int retries)
         if (rest.indices.empty())
             break;
         ExchangeResult again;
-        m_quality.countRetry(rest.request);
+        const Result<Reply> &first = total.replies[rest.indices.front()];
+        const bool isSilent = !first && first.error().kind == ErrorKind::NothingReceived;
+        if (!isSilent || !isExpectedSilence(rest.request))
+            m_quality.countRetry(rest.request);
         if (Result<void> done = exchangeInto(rest.request, encode(rest.request.packet), again); !done)
             return tl::unexpected(done.error());
         ++total.seen.retries;
@@ -99,7 +103,10 @@ Result<void> Bus::exchangeInto(const Request &request, ByteView packet, Exchange
         if (!*proven) { // whoever doesn't answer a Ping would break the chain, too
             result.seen.reset();
             result.brokenAt = 0;
-            result.replies.assign(request.replies.size(), tl::unexpected(messages::notSent(first)));
+            const int level = traits(first).statusReturnLevel;
+            const bool byLevel = level < 1 && request.packet.instruction != Instruction::Ping;
+            result.replies.assign(request.replies.size(), tl::unexpected(byLevel ? messages::silentByLevel(first, level)
+                                                                                 : messages::notSent(first)));
             for (std::size_t i = 1; i < request.replies.size(); ++i)
                 result.replies[i] = tl::unexpected(
                     messages::chainBroken(request.replies[i].id, first));
@@ -133,6 +140,7 @@ Result<bool> Bus::fence(std::uint8_t id)
 {
     const std::uint16_t distinct = m_late.couldBePing(id) ? m_late.distinctLength(id) : 0;
     const Request request = distinct > 0 ? readRequest({id, 0, distinct}) : pingRequest(id);
+    const Asking asking(*this); // it was silent before
     Waiting waiting;
     ExchangeResult result;
     if (Result<void> done = perform(request, encode(request.packet), waiting, result); !done)
@@ -165,7 +173,7 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     m_echoes = m_echoes || result.seen.echo;
     learn(request, result, waiting.sent);
     remember(request, result, waiting.sent);
-    m_quality.count(request, result, waiting.sent);
+    m_quality.count(request, result, waiting.sent, isExpectedSilence(request));
     for (const Result<Reply> &reply : result.replies) {
         if (reply && reply->bytes > 0)
             m_heardAt[reply->id] = reply->at;

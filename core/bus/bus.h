@@ -32,10 +32,9 @@ public:
     void addTraits(const Traits &device); ///< of one more, or anew; the others stay
     Traits traits(std::uint8_t id) const;
 
-    /// Sends and collects. Retries what is idempotent up to `retries` times. Total failures of the port come as an
-    /// error of the whole; each device's own come in its entry. A device silent by its Status Return Level yields a
-    /// reply without data at the deadline. Where the answer could be mistaken for a late one of an earlier request, a
-    /// Ping goes out first: only its answer proves that nothing older is under way.
+    /// Sends and collects. Retries what is idempotent up to `retries` times. Failures of the port come as an error of
+    /// the whole, each device's own in its entry. Who is silent by its Status Return Level yields a reply without data
+    /// at the deadline. Where a late answer to an earlier request could be mistaken for this one's, a Ping goes first.
     Result<ExchangeResult> exchange(const Request &request, int retries = 2);
 
     /// As exchange() without retries, into a result that is used again and again: from the second exchange alike on
@@ -45,7 +44,7 @@ public:
     /// As exchange(), and calls `found` with each answer to a broadcast Ping as it comes. `highestId` bounds the wait.
     Result<ExchangeResult> broadcastPing(int highestId, const Collector::Found &found);
 
-    /// Sends without waiting for anything but the bytes to leave. Looks at no stop flag: this is what STOP uses.
+    /// Sends and waits for the bytes to leave. Looks at no stop flag: this is what STOP uses.
     Result<void> sendOnly(ByteView packet);
 
     /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
@@ -86,6 +85,7 @@ public:
     void setTap(Tap tap);
 
 private:
+    friend class Asking;
     struct Waiting;
 
     Result<void> prepare();
@@ -100,6 +100,7 @@ private:
     bool isMute(const Request &request, std::uint8_t id) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);
+    bool isExpectedSilence(const Request &request) const;
     void explainSilence(const Request &request, ExchangeResult &result) const;
 
     Channel m_channel;
@@ -113,8 +114,8 @@ private:
     std::bitset<256> m_known;
     std::array<LineTime, 256> m_heardAt{}; ///< by ID; 0: never
     Tap m_tap;
-    bool m_echoes = false;    ///< the adapter returns what is sent
-    bool m_unsettled = false; ///< something is or may be coming that belongs to an earlier request
+    int m_asking = 0; ///< lives of Asking
+    bool m_echoes = false, m_unsettled = false; ///< what is sent comes back; older answers may come
 };
 
 } // namespace dynascope

@@ -63,6 +63,14 @@ bool Bus::isMute(const Request &request, std::uint8_t id) const
     return request.isWrite() && traits(id).statusReturnLevel < 2;
 }
 
+/// Is it no fault of the line if nothing comes? A Ping asks whether anybody is there; some are told to be silent.
+bool Bus::isExpectedSilence(const Request &request) const
+{
+    if (m_asking > 0 || request.packet.instruction == Instruction::Ping)
+        return true;
+    return request.replies.size() == 1 && traits(request.replies.front().id).statusReturnLevel < 1;
+}
+
 /// At a low Status Return Level silence is what was to be expected.
 void Bus::explainSilence(const Request &request, ExchangeResult &result) const
 {

@@ -173,12 +173,18 @@ Error chainBroken(std::uint8_t id, std::uint8_t culprit)
 Error notSent(std::uint8_t id)
 {
     return {ErrorKind::NotSent,
-        Messages::tr("%1 was not asked: it missed an answer before, and does not answer a Ping").arg(device(id))};
+        Messages::tr("%1 was not asked: it missed an answer before and has not answered since").arg(device(id))};
 }
 
 Error asleep(std::uint8_t id)
 {
     return {ErrorKind::NothingReceived, Messages::tr("%1 does not answer").arg(device(id))};
+}
+
+Error answersOnlyPing(std::uint8_t id)
+{
+    return {ErrorKind::NothingReceived,
+        Messages::tr("%1 answers Ping but no Read: is its Status Return Level 0?").arg(device(id))};
 }
 
 Error silentByLevel(std::uint8_t id, int statusReturnLevel)

@@ -30,6 +30,7 @@ Error refused(std::uint8_t id, DeviceError error);
 /// In a group read every device waits to hear the one listed before it.
 Error chainBroken(std::uint8_t id, std::uint8_t culprit);
 Error asleep(std::uint8_t id); ///< was silent for a while, and is asked rarely
+Error answersOnlyPing(std::uint8_t id); ///< as asleep(), but its Pings are answered
 Error silentByLevel(std::uint8_t id, int statusReturnLevel);
 
 Error stopped();

@@ -31,6 +31,7 @@ struct PollValue {
     Bytes data;               ///< empty where it failed
     Error error;              ///< where data is empty
     bool alert = false;
+    bool answersPing = false; ///< where data is empty: its Pings are answered, as far as is known
     LineTime at{}; ///< when the reply had come, or when waiting for it ended
 };
 

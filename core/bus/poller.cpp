@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/poller.h"
 
+#include "core/bus/asking.h"
 #include "core/bus/messages.h"
 
 #include <algorithm>
@@ -47,6 +48,15 @@ void Poller::setPlan(PollPlan plan)
             m_devices[id] = {};
     }
     m_plan = std::move(plan);
+    for (const Traits &device : m_plan.traits) {
+        DeviceState &state = m_devices[device.id];
+        if (!isMute(device.id) || state.silent > 0)
+            continue;
+        state.silent = SilentCycles;
+        state.answersPing = true; // it was found
+        state.backOff = LongestBackOff;
+        state.probeAt = now;
+    }
     m_due = std::move(due);
     m_place.assign(m_plan.spans.size(), 0);
     m_prepared.clear();
@@ -55,9 +65,23 @@ void Poller::setPlan(PollPlan plan)
     m_bus.setTraits(known);
 }
 
+/// Told to answer no Read, and keeping to it. Somebody else may set its Status Return Level back: then it isn't.
+bool Poller::isMute(std::uint8_t id) const
+{
+    const auto traits = std::ranges::find(m_plan.traits, id, &Traits::id);
+    return traits != m_plan.traits.end() && traits->statusReturnLevel < 1 && !m_devices[id].answersRead;
+}
+
 bool Poller::isSleeping(std::uint8_t id) const
 {
     return m_devices[id].silent >= SilentCycles;
+}
+
+Error Poller::silenceOf(std::uint8_t id) const
+{
+    if (!m_devices[id].answersPing)
+        return messages::asleep(id);
+    return isMute(id) ? messages::silentByLevel(id, 0) : messages::answersOnlyPing(id);
 }
 
 LineTime Poller::nextDue() const
@@ -87,6 +111,7 @@ Result<void> Poller::runCycle(Batch &batch)
     batch.fullRate = false;
     m_fastMissed.reset();
     m_groupMissed.reset();
+    m_looked.reset();
     if (batch.begin >= m_forgetAt)
         forgetRefusals();
     if (Result<void> collected = collectDue(batch); !collected)
@@ -121,7 +146,9 @@ Result<void> Poller::collectDue(Batch &batch)
         }
         m_dueNow.push_back(i);
         batch.fullRate = batch.fullRate || m_plan.spans[i].interval == 0ms;
-        if (!isSleeping(id))
+        const auto isOfIt = [&](std::size_t other) { return m_plan.spans[other].span.id == id; };
+        const bool waits = m_looked.test(id) && std::ranges::any_of(m_open, isOfIt); // one Read is enough for a look
+        if (!isSleeping(id) && !waits)
             m_open.push_back(i);
     }
     batch.values.resize(m_dueNow.size());
@@ -135,8 +162,9 @@ Result<void> Poller::collectDue(Batch &batch)
         value.alert = false;
         value.at = now;
         value.data.clear();
-        if (isSleeping(span.span.id))
-            value.error = messages::asleep(span.span.id);
+        value.answersPing = m_devices[span.span.id].answersPing;
+        if (isSleeping(span.span.id) || m_looked.test(span.span.id))
+            value.error = silenceOf(span.span.id);
     }
     const auto trouble = [this](std::size_t i) { return stateOf(i).silent + stateOf(i).broken; };
     if (std::ranges::any_of(m_open, [&](std::size_t i) { return trouble(i) > 0; }))
@@ -144,15 +172,18 @@ Result<void> Poller::collectDue(Batch &batch)
     return {};
 }
 
+/// Who answers may still answer no Read: the next miss lets it sleep on, twice as long as before.
 Result<void> Poller::probe(std::uint8_t id)
 {
+    const Asking asking(m_bus);
     const Result<ExchangeResult> ping = m_bus.exchange(pingRequest(id), 0);
     if (!ping)
         return tl::unexpected(ping.error());
     DeviceState &state = m_devices[id];
-    if (ping->replies.front()) {
-        state.silent = 0;
-        state.backOff = {};
+    state.answersPing = ping->replies.front().has_value();
+    if (state.answersPing) {
+        state.silent = SilentCycles - 1;
+        m_looked.set(id);
     } else {
         missed(id);
     }
@@ -164,8 +195,13 @@ std::vector<Traits> Poller::currentTraits() const
     std::vector<Traits> traits = m_plan.traits;
     for (Traits &device : traits) {
         const DeviceState &state = m_devices[device.id];
-        device.fastReads = device.fastReads && state.fastFailures < Failures && !m_fastMissed.test(device.id);
-        device.groupReads = device.groupReads && state.groupFailures < Failures && !m_groupMissed.test(device.id);
+        const bool single = m_looked.test(device.id);
+        device.fastReads =
+            device.fastReads && state.fastFailures < Failures && !m_fastMissed.test(device.id) && !single;
+        device.groupReads =
+            device.groupReads && state.groupFailures < Failures && !m_groupMissed.test(device.id) && !single;
+        if (state.answersRead)
+            device.statusReturnLevel = std::max<std::uint8_t>(device.statusReturnLevel, 1);
     }
     return traits;
 }
@@ -189,7 +225,7 @@ std::vector<Poller::Step> Poller::planSteps(const Indices &open) const
 /// Cycles repeat: what they send is made once.
 const std::vector<Poller::Step> &Poller::stepsFor(const Indices &open)
 {
-    if (m_fastMissed.any() || m_groupMissed.any()) {
+    if (m_fastMissed.any() || m_groupMissed.any() || m_looked.any()) {
         m_unusual = planSteps(open);
         return m_unusual;
     }
@@ -221,6 +257,9 @@ Result<void> Poller::readPass(Batch &batch, int pass)
 
 Result<void> Poller::runStep(Batch &batch, const Step &step, int pass)
 {
+    const std::uint8_t first = m_plan.spans[step.spans.front()].span.id;
+    const bool isLook = step.spans.size() == 1 && m_looked.test(first);
+    const Asking asking(m_bus, isLook);
     if (Result<void> done = m_bus.exchangeInto(step.request, step.packet, m_result); !done)
         return done;
     for (std::size_t place = 0; place < step.spans.size(); ++place) {
@@ -231,6 +270,8 @@ Result<void> Poller::runStep(Batch &batch, const Step &step, int pass)
             value.error = reply.error();
             value.at = m_bus.line().now();
             takeFailure(step, place, pass);
+            if (isLook && isSilence(value.error))
+                value.error = silenceOf(m_plan.spans[span].span.id);
             continue;
         }
         value.data.swap(reply->data);
@@ -238,8 +279,20 @@ Result<void> Poller::runStep(Batch &batch, const Step &step, int pass)
         value.alert = reply->alert;
         value.at = reply->at;
         answered(m_plan.spans[span].span.id, step);
+        if (isLook)
+            askRest(m_plan.spans[span].span.id, span);
     }
     return {};
+}
+
+/// It is back: whatever else of it is due is read, too.
+void Poller::askRest(std::uint8_t id, std::size_t looked)
+{
+    m_looked.reset(id);
+    for (const std::size_t span : m_dueNow) {
+        if (span != looked && m_plan.spans[span].span.id == id)
+            m_again.push_back(span);
+    }
 }
 
 /// Hidden by another one's silence: again. Silent itself: again with a plainer read, if it may be that it doesn't know
@@ -278,6 +331,8 @@ void Poller::answered(std::uint8_t id, const Step &step)
     state.silent = 0;
     state.broken = 0;
     state.backOff = {};
+    state.answersPing = false;
+    state.answersRead = true;
     state.fastProven = state.fastProven || step.request.shape == ReplyShape::Fast;
     state.groupProven = state.groupProven || isGroup(step.request);
     if (m_groupMissed.test(id) && !isGroup(step.request))

@@ -10,7 +10,8 @@ namespace dynascope {
 
 /// Runs a PollPlan cycle by cycle. Bus thread; no timer of its own: whoever owns it asks when the next cycle is due.
 ///
-/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself. Of fast, sync and
+/// A silent device goes last in its group, then to a slow probe with back-off, and returns by itself; one that answers
+/// Ping and no Read stays there, and so from the start does one told to by its Status Return Level. Of fast, sync and
 /// single reads each device gets the fastest that it answers; what was learned of that ends with its firmware.
 class Poller
 {
@@ -40,6 +41,8 @@ private:
         int broken = 0;          ///< answered last so badly that the chain broke
         LineTime probeAt{};      ///< while silent: when to ask again
         LineTime backOff{};      ///< until the probe after that
+        bool answersPing = false; ///< that is all it does, as far as is known
+        bool answersRead = false; ///< whatever its Status Return Level was: somebody set it back
         bool fastProven = false;  ///< has answered a fast read
         bool groupProven = false; ///< has answered a group read
         int fastFailures = 0;     ///< fast reads that failed where a plain one brought the value
@@ -56,9 +59,12 @@ private:
         std::vector<Step> steps;
     };
 
+    bool isMute(std::uint8_t id) const;
     bool isSleeping(std::uint8_t id) const;
+    Error silenceOf(std::uint8_t id) const;
     DeviceState &stateOf(std::size_t span) { return m_devices[m_plan.spans[span].span.id]; }
     Result<void> probe(std::uint8_t id);
+    void askRest(std::uint8_t id, std::size_t looked);
     Result<void> collectDue(Batch &batch);
     const std::vector<Step> &stepsFor(const Indices &open);
     std::vector<Step> planSteps(const Indices &open) const;
@@ -86,6 +92,7 @@ private:
     Indices m_dueNow, m_open, m_again, m_last;
     std::bitset<256> m_fastMissed;  ///< did not answer a fast read in this cycle
     std::bitset<256> m_groupMissed; ///< nor a plain group read
+    std::bitset<256> m_looked;      ///< were silent, answered a Ping: one Read shows whether they are back
     ExchangeResult m_result;
     std::vector<Step> m_unusual; ///< steps that are not worth keeping
 };

@@ -128,7 +128,7 @@ DeviceQuality &QualityLog::device(std::uint8_t id)
     return *device;
 }
 
-void QualityLog::count(const Request &request, const ExchangeResult &result, LineTime origin)
+void QualityLog::count(const Request &request, const ExchangeResult &result, LineTime origin, bool asking)
 {
     ++m_totals.exchanges;
     m_totals.bytesReceived += result.seen.bytesReceived;
@@ -141,9 +141,10 @@ void QualityLog::count(const Request &request, const ExchangeResult &result, Lin
         const std::uint8_t id = reply ? reply->id : i < request.replies.size() ? request.replies[i].id : BroadcastId;
         if (reply && reply->bytes == 0)
             continue; // silent by its Status Return Level: says nothing of the wire
-        const bool asksWhetherThere = request.packet.instruction == Instruction::Ping && !reply && !m_devices[id];
-        if (asksWhetherThere && reply.error().kind == ErrorKind::NothingReceived)
+        if (asking && !reply && reply.error().kind == ErrorKind::NothingReceived) {
+            whole = false;
             continue; // nobody is there, which was the question
+        }
         DeviceQuality &one = device(id);
         if (reply) {
             ++m_totals.replies;

@@ -11,7 +11,8 @@ namespace dynascope {
 class QualityLog
 {
 public:
-    void count(const Request &request, const ExchangeResult &result, LineTime origin);
+    /// `asking`: nothing received is no fault of the line, and counts nowhere.
+    void count(const Request &request, const ExchangeResult &result, LineTime origin, bool asking);
     void countRetry(const Request &request);
     BusStatistics &totals() { return m_totals; }
     const BusStatistics &totals() const { return m_totals; }

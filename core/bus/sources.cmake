@@ -1,4 +1,5 @@
 target_sources(dynascope_core PRIVATE
+    bus/asking.h
     bus/bus.cpp bus/bus.h bus/bus_values.h
     bus/busthread.cpp bus/busthread.h
     bus/buswaiting.cpp bus/buswaiting.h

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/stopsequence.h"
 
+#include "core/bus/asking.h"
 #include "core/bus/messages.h"
 #include "core/bus/operations.h"
 #include "core/bus/readplan.h"
@@ -125,8 +126,10 @@ Result<ReadReply> readTorque(Bus &bus, const StopTarget &target)
     return read(bus, {target.id, target.torqueAddress, 1});
 }
 
-StopOutcome verifyOne(Bus &bus, const StopTarget &target)
+/// `isElsewhere`: nobody polls it, who knows whether it is still there.
+StopOutcome verifyOne(Bus &bus, const StopTarget &target, bool isElsewhere)
 {
+    const Asking asking(bus, isElsewhere);
     const Result<ReadReply> value = readTorque(bus, target);
     if (!value)
         return {target.device, false, value.error().text};
@@ -145,7 +148,7 @@ std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int wor
         [workingBaud](const StopTarget &target) { return target.baudRate == workingBaud ? 0 : target.baudRate; });
     std::vector<StopOutcome> outcomes;
     for (const StopTarget &target : targets) {
-        outcomes.push_back(verifyOne(bus, target));
+        outcomes.push_back(verifyOne(bus, target, target.baudRate != workingBaud));
         if (bus.isStopped() || bus.isCancelled())
             return {};
     }

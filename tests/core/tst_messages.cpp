@@ -107,6 +107,8 @@ private slots:
         row("late", messages::onlyLate(3),
             QStringLiteral(
                 "device 3 did not answer in time: what came may be its answer to an earlier request"));
+        row("not sent", messages::notSent(3),
+            QStringLiteral("device 3 was not asked: it missed an answer before and has not answered since"));
         row("asleep", silent, QStringLiteral("device 3 does not answer"));
         row("with nobody", messages::withOthers(silent, {}),
             QStringLiteral("device 3 does not answer; nothing else on the line has answered lately"));
@@ -170,7 +172,7 @@ private slots:
             messages::portNotFound(port), messages::portEmpty(port),
             messages::portForbidden(port), messages::portBusy(port, port), messages::portBusy(port, {}),
             messages::portNotSerial(port), messages::portFailed(port, port), messages::portLost(port),
-            messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0),
+            messages::answersOnlyPing(1), messages::rateRefused(port, 2, 1), messages::rateRefused(port, 2, 0),
             messages::addressMalformed(port), messages::portNumberWrong(port, port), messages::hostUnknown(port, port),
             messages::nameServerSilent(port, port), messages::hostSilent(port, port, 5s),
             messages::hostUnreachable(port, port, port), messages::connectionRefused(port),

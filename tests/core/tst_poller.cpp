@@ -58,6 +58,23 @@ class TestPoller : public QObject
                 count += sent.bytes[7] == static_cast<std::uint8_t>(code);
             return count;
         }
+        /// Cycles as they come due, for so long; the text of the last error of device 1.
+        QString run(LineTime duration)
+        {
+            QString text;
+            for (const LineTime end = line.now() + duration; line.now() < end;) {
+                Bytes ignored;
+                while (line.now() < std::min(poller.nextDue(), end))
+                    (void)line.read(ignored, std::min(poller.nextDue(), end));
+                const auto batch = poller.runCycle();
+                for (const PollValue &value : batch ? batch->values : std::vector<PollValue>()) {
+                    if (value.device == 101)
+                        text = value.data.empty() ? value.error.text : QStringLiteral("answers");
+                }
+            }
+            return text;
+        }
+        quint64 timeouts() const { return bus.statistics().timeouts; }
         FakeLine line;
         FakeServos servos;
         Bus bus;
@@ -152,6 +169,46 @@ private slots:
         }
         QVERIFY(gaps.front() <= 100ms);
         QVERIFY(gaps.back() > 2900ms && gaps.back() <= 3s);
+    }
+
+    void aDeviceThatAnswersOnlyPingIsReadEverMoreRarely()
+    {
+        World world;
+        world.servos.servos[1].onlyPing = true;
+        world.plan({span(1), {101, {1, 146, 1}, 0ms}, span(2, 100ms)});
+        const QString seen = QStringLiteral("device 1 answers Ping but no Read: is its Status Return Level 0?");
+        QCOMPARE(world.run(10s), seen);
+        const int before = world.sentOf(Instruction::Ping);
+        const quint64 timeouts = world.timeouts();
+        QCOMPARE(world.bus.quality().device(1)->timeouts, timeouts);
+        QVERIFY2(timeouts < 12, qPrintable(QString::number(timeouts)));
+        QCOMPARE(world.run(30s), seen);
+        QVERIFY(world.sentOf(Instruction::Ping) <= before + 22);
+        QCOMPARE(world.timeouts(), timeouts); // it is there, and what it does is known
+        world.servos.servos[1].onlyPing = false; // it returns by itself, with all that is read of it
+        QCOMPARE(world.run(3500ms), QStringLiteral("answers"));
+        QVERIFY(toText(world.poller.runCycle()).startsWith(QStringLiteral("101=1 101=0")));
+    }
+
+    void aDeviceToldToAnswerOnlyPingIsLookedAtRarely()
+    {
+        World world;
+        world.servos.servos[1].onlyPing = true;
+        Traits mute = traits(1);
+        mute.statusReturnLevel = 0;
+        world.poller.setPlan({AnyRate, {span(1), {101, {1, 146, 1}, 0ms}, span(2, 100ms)}, {mute, traits(2)}, {}});
+        const QString seen =
+            QStringLiteral("device 1 did not answer: its Status Return Level 0 lets it answer only Ping");
+        QCOMPARE(world.run(30s), seen);
+        QVERIFY(world.sentOf(Instruction::Ping) <= 22);
+        QCOMPARE(world.timeouts(), quint64(0));
+        world.servos.servos[1].deaf = true; // unplugged
+        QCOMPARE(world.run(10s), QStringLiteral("device 1 does not answer"));
+        world.servos.servos[1].deaf = false;
+        QCOMPARE(world.run(3500ms), seen);
+        world.servos.servos[1].onlyPing = false; // somebody set its level back
+        QCOMPARE(world.run(3500ms), QStringLiteral("answers"));
+        QVERIFY(toText(world.poller.runCycle()).startsWith(QStringLiteral("101=1 101=0")));
     }
 
     void fallsBackFromFastReads()

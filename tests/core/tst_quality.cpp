@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/asking.h"
 #include "core/bus/operations.h"
 #include "core/bus/quality.h"
+#include "core/bus/stopsequence.h"
 #include "core/session/answerfaults.h"
 #include "core/session/linehealth.h"
 #include "tests/support/busworld.h"
@@ -156,6 +158,34 @@ private slots:
         QVERIFY2(median > 2.9 && median < 3.6, qPrintable(QString::number(median)));
         QCOMPARE(quality.sum().good, quality.device(1)->good + quality.device(2)->good + quality.device(3)->good);
         QVERIFY(!quality.device(4));
+    }
+
+    /// Whether an ID is free, whether a device came back, who is at other rates: nobody there is an answer.
+    void askingWhetherSomebodyIsThereIsNoFault()
+    {
+        VirtualBus world(*m_catalog, QStringLiteral("XM430-W350@57600:2"));
+        Bus &bus = *world.bus;
+        QVERIFY(read(bus, {2, 132, 4}));
+        for (const std::uint8_t id : {2, 3}) {
+            if (id == 2) // it was there
+                QVERIFY(write(bus, {2, 8, {3}}, 0) && bus.wait(100ms));
+            QVERIFY(!ping(bus, id));
+            const Asking asking(bus);
+            QVERIFY(!read(bus, {id, 132, 4}));
+        }
+        StopTarget away;
+        away.id = 9;
+        away.baudRate = 1'000'000;
+        QCOMPARE(verifyTorqueOff(bus, StopPlan({away}), 57600).size(), std::size_t(1));
+        LineQuality quality = bus.quality();
+        QCOMPARE(text(*quality.device(2)), QStringLiteral("good 2"));
+        QVERIFY(!quality.device(3) && !quality.device(9));
+        QCOMPARE(quality.totals.timeouts, quint64(0));
+        QCOMPARE(quality.totals.retries, quint64(0));
+        QVERIFY(!read(bus, {2, 132, 4})); // this is one; the Ping that goes before it isn't
+        quality = bus.quality();
+        QVERIFY(quality.totals.timeouts <= 1);
+        QCOMPARE(quality.totals.timeouts, quality.sum().timeouts);
     }
 
     void retriesAreCounted()

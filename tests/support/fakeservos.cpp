@@ -62,7 +62,8 @@ FakeLine::Answer FakeServos::answer(const Bytes &request)
         data = piece(servo->registers, word(0), word(2));
     else if (code == 3)
         std::copy(parameters.begin() + 2, parameters.end(), servo->registers.begin() + word(0));
-    return servo->silent ? FakeLine::Answer{} : reply(static_cast<std::uint8_t>(id), data);
+    const bool isSilent = servo->silent || (servo->onlyPing && code != 1);
+    return isSilent ? FakeLine::Answer{} : reply(static_cast<std::uint8_t>(id), data);
 }
 
 /// Each waits to hear the one before it; the first that is missing silences the rest.
@@ -76,7 +77,7 @@ FakeLine::Answer FakeServos::chain(const std::vector<int> &ids, int address, int
     bool any = false;
     for (const int id : ids) {
         const Servo *servo = heard(id);
-        if (!servo || servo->silent || (fast && !servo->knowsFast))
+        if (!servo || servo->silent || servo->onlyPing || (fast && !servo->knowsFast))
             break;
         any = true;
         const Bytes data = piece(servo->registers, address, length);

@@ -13,6 +13,7 @@ public:
         dynascope::Bytes registers = dynascope::Bytes(256, 0);
         bool silent = false; ///< hears, obeys, doesn't answer
         bool deaf = false;   ///< neither
+        bool onlyPing = false; ///< hears and obeys, answers nothing else: Status Return Level 0
         bool knowsFast = true;
     };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/procedures/procedures.h"
 
+#include "core/bus/asking.h"
 #include "core/session/procedures/atbaud.h"
 
 namespace dynascope {
@@ -52,6 +53,7 @@ Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldP
     const AtBaud there(context.bus(), plan.place.baudRate);
     if (!there.entered())
         return tl::unexpected(there.entered().error());
+    const Asking asking(context.bus(), plan.leavesOnlyPing);
     auto written = writeVerified(context.bus(), plan.data);
     const bool isSilent = !written && written.error().kind == ErrorKind::NothingReceived;
     if (isSilent && plan.leavesOnlyPing && ping(context.bus(), plan.data.id))
