@@ -173,6 +173,10 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     m_echoes = m_echoes || result.seen.echo;
     learn(request, result, waiting.sent);
     remember(request, result, waiting.sent);
+    for (const ExpectedReply &reply : request.replies)
+        m_askedAt[reply.id] = waiting.sent;
+    if (request.shape == ReplyShape::Anyone)
+        m_askedAt[BroadcastId] = waiting.sent;
     m_quality.count(request, result, waiting.sent, isExpectedSilence(request));
     for (const Result<Reply> &reply : result.replies) {
         if (reply && reply->bytes > 0)
@@ -322,14 +326,21 @@ Result<void> Bus::listen(const Request &request, Waiting &waiting)
     return {};
 }
 
-std::vector<std::uint8_t> Bus::alive() const
+std::optional<std::vector<std::uint8_t>> Bus::othersAlive(std::uint8_t but) const
 {
-    constexpr LineTime Lately = 10s;
+    static constexpr LineTime Lately = 10s;
+    const auto isLately = [this](LineTime at) { return at > LineTime() && m_channel.now() - at < Lately; };
     std::vector<std::uint8_t> ids;
+    bool asked = false;
     for (std::size_t id = 0; id < m_heardAt.size(); ++id) {
-        if (m_heardAt[id] > LineTime() && m_channel.now() - m_heardAt[id] < Lately)
+        if (id == but)
+            continue;
+        asked = asked || isLately(m_askedAt[id]);
+        if (isLately(m_heardAt[id]))
             ids.push_back(static_cast<std::uint8_t>(id));
     }
+    if (ids.empty() && !asked)
+        return std::nullopt;
     return ids;
 }
 

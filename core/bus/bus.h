@@ -63,8 +63,8 @@ public:
     Result<void> setBaudRate(int bitsPerSecond);
 
     bool isStopped() const { return m_channel.isStopped(); }
-    /// Who has answered within the last seconds, by ID.
-    std::vector<std::uint8_t> alive() const;
+    /// Who else has answered within the last seconds, by ID; nothing where nobody else was asked.
+    std::optional<std::vector<std::uint8_t>> othersAlive(std::uint8_t but) const;
     BusStatistics statistics() const;
     LineQuality quality() const; ///< per device, too
 
@@ -112,7 +112,7 @@ private:
     std::array<Traits, 256> m_traits; ///< by ID, where m_known says so: the first listed
     std::vector<Traits> m_moreTraits; ///< of the same IDs at other rates
     std::bitset<256> m_known;
-    std::array<LineTime, 256> m_heardAt{}; ///< by ID; 0: never
+    std::array<LineTime, 256> m_heardAt{}, m_askedAt{}; ///< by ID; 0: never
     Tap m_tap;
     int m_asking = 0; ///< lives of Asking
     bool m_echoes = false, m_unsettled = false; ///< what is sent comes back; older answers may come

@@ -33,9 +33,8 @@ Result<Reply> single(Bus &bus, const Request &request, int retries = 2)
         return Reply{request.packet.id, DeviceError::None, false, {}, bus.line().now()};
     Result<Reply> &reply = result->replies.front();
     if (!reply && (mayHaveArrived(reply.error()) || reply.error().kind == ErrorKind::NotSent)) {
-        std::vector<std::uint8_t> others = bus.alive();
-        std::erase(others, request.packet.id);
-        return tl::unexpected(messages::withOthers(std::move(reply.error()), others));
+        if (const auto others = bus.othersAlive(request.packet.id))
+            return tl::unexpected(messages::withOthers(std::move(reply.error()), *others));
     }
     return std::move(reply);
 }
