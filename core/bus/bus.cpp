@@ -159,7 +159,8 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
         return tl::unexpected(begun.error());
     waiting.sent = waiting.origin = m_channel.sentBy();
     const Result<void> listened = listen(request, waiting);
-    m_quality.totals().busy += m_channel.now() - waiting.begin;
+    const Observations &seen = m_collector.seen();
+    carried(packet.size() + seen.bytesReceived - (seen.echo ? std::min(packet.size(), seen.bytesReceived) : 0));
     if (!listened) {
         m_unsettled = true;
         m_late.addAll(request, waiting.sent);
@@ -218,6 +219,11 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
     m_timing.learn(first.id, first.at - timing::times(bytes, byteTime) - sent - traits(first.id).returnDelay);
 }
 
+void Bus::carried(std::size_t bytes)
+{
+    m_quality.totals().busy += timing::times(bytes, m_channel.line().byteTime());
+}
+
 /// Nothing that belongs to an earlier request may be taken for the answer to the next one.
 Result<void> Bus::prepare()
 {
@@ -230,6 +236,7 @@ Result<void> Bus::prepare()
         return tl::unexpected(waiting.error());
     if (!waiting->empty()) {
         m_channel.countDiscarded(waiting->size());
+        carried(waiting->size());
         if (std::ranges::equal(*waiting, m_channel.lastSent())) // the echo of a request that nobody answers
             m_echoes = true;
         else
@@ -286,6 +293,7 @@ Result<void> Bus::sendOnly(ByteView packet)
     if (const Result<LineTime> begun = begin(packet); !begun)
         return tl::unexpected(begun.error());
     m_unsettled = true;
+    carried(packet.size());
     return m_channel.waitUntil(m_channel.sentBy(), Channel::Heed::Nothing);
 }
 

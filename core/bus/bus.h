@@ -90,7 +90,7 @@ private:
 
     Result<void> prepare();
     Result<bool> fence(std::uint8_t id);
-    void learnBelated(ByteView bytes);
+    void learnBelated(ByteView bytes), carried(std::size_t bytes);
     Result<void> perform(const Request &request, ByteView packet, Waiting &waiting, ExchangeResult &result);
     Result<void> listen(const Request &request, Waiting &waiting);
     Result<LineTime> begin(ByteView packet);

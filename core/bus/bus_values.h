@@ -61,7 +61,7 @@ struct BusStatistics {
     quint64 retries = 0;
     quint64 bytesSent = 0;
     quint64 bytesReceived = 0;
-    LineTime busy{}; ///< time spent inside exchanges
+    LineTime busy{}; ///< so long the wire carried bytes, in either direction
 
     friend bool operator==(const BusStatistics &, const BusStatistics &) = default;
 };

@@ -57,7 +57,7 @@ public:
     double cycleRate() const { return m_cycleRate; }
     /// What the wire would allow for the same; see possibleCycleRate().
     double possibleRate() const { return m_possibleRate; }
-    double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second spent in exchanges
+    double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second in which the wire carried bytes
     LineHealth &health() { return m_health; }
 
 signals:

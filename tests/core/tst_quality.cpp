@@ -188,6 +188,19 @@ private slots:
         QCOMPARE(quality.totals.timeouts, quality.sum().timeouts);
     }
 
+    /// Not the time that was waited.
+    void theLoadIsOfTheWire()
+    {
+        VirtualBus world(*m_catalog, QStringLiteral("XM430-W350@57600:2"));
+        const BusStatistics before = world.bus->statistics();
+        QVERIFY(read(*world.bus, {2, 132, 4}));
+        QVERIFY(!ping(*world.bus, 3));
+        const BusStatistics after = world.bus->statistics();
+        const quint64 bytes = after.bytesSent + after.bytesReceived - before.bytesSent - before.bytesReceived;
+        QCOMPARE(bytes, quint64(14 + 15 + 3 * 10));
+        QCOMPARE(after.busy - before.busy, static_cast<LineTime::rep>(bytes) * world.line->byteTime());
+    }
+
     void retriesAreCounted()
     {
         VirtualBus world(*m_catalog, QStringLiteral("XM430-W350@57600:2"));
