@@ -57,8 +57,13 @@ Result<RegisterArgument> parseRegister(const QString &text)
         return wrong(QStringLiteral("\"%1\" is neither a field nor ADDRESS:LENGTH").arg(text));
     if (*length < 1 || *length > LongestRegister)
         return wrong(QStringLiteral("\"%1\": a length is 1 to %2 bytes").arg(text).arg(LongestRegister));
-    if (*address < 0 || *address + *length > AddressSpace)
+    if (*address < 0 || *address >= AddressSpace)
         return wrong(QStringLiteral("\"%1\" lies outside of the addresses 0 to %2").arg(text).arg(AddressSpace - 1));
+    if (*address + *length > AddressSpace)
+        return wrong(QStringLiteral("\"%1\": %2 bytes from there on end behind the last address, %3")
+                         .arg(text)
+                         .arg(*length)
+                         .arg(AddressSpace - 1));
     return RegisterArgument{{}, static_cast<int>(*address), static_cast<int>(*length), {}};
 }
 

@@ -4,6 +4,8 @@
 #include "core/bus/scan.h"
 #include "core/session/volatilespan.h"
 
+#include <map>
+
 namespace dynascope::dxl {
 
 namespace {
@@ -91,6 +93,14 @@ Result<std::size_t> scanAt(const Work &work, int baud, const Progress &progress)
     return found->devices.size();
 }
 
+constexpr QChar Placeholder{0x1f};
+
+/// What is said of this rate and may be said of others, too.
+QString patternOf(QString text, int baud)
+{
+    return text.replace(QStringLiteral(" %1 ").arg(baud), QStringLiteral(" %1 ").arg(Placeholder));
+}
+
 } // namespace
 
 ExitCode scanCommand(const Work &work)
@@ -98,6 +108,7 @@ ExitCode scanCommand(const Work &work)
     work.output.expectMany();
     std::vector<int> silent;
     std::size_t found = 0;
+    std::map<QString, QStringList> refused; ///< rates by what was said of them
     bool failed = false;
     std::vector<int> bauds = work.options.bauds;
     if (!work.bus.line().canSetBaudRate()) {
@@ -118,13 +129,18 @@ ExitCode scanCommand(const Work &work)
                 silent.push_back(baud);
             continue;
         }
-        work.output.fail(count.error());
+        const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;
+        if (unsuitable && bauds.size() > 1)
+            refused[patternOf(count.error().text, baud)] << QString::number(baud);
+        else
+            work.output.fail(count.error());
         if (endsAll(count.error()))
             return ExitCode::Failed;
         // Of several rates nobody expects every port to do each; garbage at one of them doesn't end the search.
-        const bool unsuitable = count.error().kind == ErrorKind::PortUnsuitable;
         failed = failed || !unsuitable || bauds.size() == 1;
     }
+    for (const auto &[pattern, rates] : refused)
+        work.output.note(QString(pattern).replace(Placeholder, rates.join(QStringLiteral(", "))));
     if (found == 0 && !failed && !silent.empty())
         adviseAfterSilence(work, silent);
     return failed ? ExitCode::Failed : ExitCode::Done;

@@ -295,7 +295,7 @@ Error rateRefused(const QString &port, int wanted, int made)
     if (made <= 0)
         return {ErrorKind::PortUnsuitable, Messages::tr("%1 can't do %2 baud").arg(port).arg(wanted)};
     return {ErrorKind::PortUnsuitable,
-        Messages::tr("%1 can't do %2 baud: it would send at %3, more than 3 % off").arg(port).arg(wanted).arg(made)};
+        Messages::tr("%1 can't do %2 baud: it would send at %3 instead").arg(port).arg(wanted).arg(made)};
 }
 
 Error addressMalformed(const QString &port)

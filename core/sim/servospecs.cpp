@@ -17,6 +17,19 @@ bool isId(int id)
     return id >= 0 && id <= MaximumId;
 }
 
+/// Who writes the family's name means one of these.
+QString noModel(QStringView name, const Catalog &catalog)
+{
+    QStringList alike;
+    for (const Catalog::ModelInfo &info : catalog.models()) {
+        if (!name.trimmed().isEmpty() && info.model.startsWith(name.trimmed(), Qt::CaseInsensitive))
+            alike << info.model;
+    }
+    const QString text = QStringLiteral("no model is called %1").arg(name.toString());
+    return alike.isEmpty() ? text
+                           : QStringLiteral("%1; those that begin so: %2").arg(text, alike.join(QStringLiteral(", ")));
+}
+
 Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
 {
     const qsizetype colon = entry.lastIndexOf(u':');
@@ -54,7 +67,7 @@ Result<void> checkServoSpec(ServoSpec &spec, const Catalog &catalog)
 {
     const Catalog::ModelInfo *info = catalog.model(QStringView(spec.model));
     if (!info)
-        return failure(ErrorKind::NotFound, QStringLiteral("no model is called %1").arg(spec.model));
+        return failure(ErrorKind::NotFound, noModel(spec.model, catalog));
     spec.model = info->model;
     const ControlTablePtr table = catalog.find(info->modelNumber, spec.firmware < 0 ? info->newestFirmware
                                                                                     : spec.firmware);

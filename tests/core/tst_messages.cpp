@@ -59,7 +59,7 @@ private slots:
         row("rate refused", messages::rateRefused(port, 4'500'000, 0),
             QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud"));
         row("rate off", messages::rateRefused(port, 4'500'000, 4'000'000),
-            QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud: it would send at 4000000, more than 3 % off"));
+            QStringLiteral("/dev/ttyUSB0 can't do 4500000 baud: it would send at 4000000 instead"));
         const QString server = QStringLiteral("tcp://pi:4000");
         const QString host = QStringLiteral("pi");
         row("address", messages::addressMalformed(QStringLiteral("tcp://pi")),

@@ -261,7 +261,8 @@ void TestDxl::refusesBeforeWriting_data()
     QTest::newRow("empty value") << u"goal_position="_s << u"no value"_s;
     QTest::newRow("too large for its bytes") << u"64:1=256"_s << u"-128 to 255"_s;
     QTest::newRow("bytes missing") << u"168:6=0102"_s << u"12 hexadecimal digits"_s;
-    QTest::newRow("no such place") << u"65535:2=1"_s << u"outside"_s;
+    QTest::newRow("no such place") << u"65536:1=1"_s << u"outside"_s;
+    QTest::newRow("too long a place") << u"65535:2=1"_s << u"behind the last address"_s;
     QTest::newRow("no length") << u"64:0=1"_s << u"length"_s;
     QTest::newRow("baud rate as code") << u"baud_rate=57600"_s << u"write 57600bps or 1"_s;
 }
