@@ -118,12 +118,14 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
                         &field == device.table().find(Known::StatusReturnLevel) && raw == 0};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
-        [this, key = device.key(), fieldIndex, done = std::move(done)](const Result<std::vector<PollValue>> &values) {
-            finishWrite(key, fieldIndex, values, done);
+        [this, key = device.key(), fieldIndex, raw,
+         done = std::move(done)](const Result<std::vector<PollValue>> &values) {
+            finishWrite(key, fieldIndex, raw, values, done);
         });
 }
 
-void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vector<PollValue>> &values, const Done &done)
+void Commands::finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw,
+                           const Result<std::vector<PollValue>> &values, const Done &done)
 {
     const auto onItsWay = m_writes.find({key, fieldIndex});
     std::optional<Waiting> next = onItsWay == m_writes.end() ? std::nullopt : std::move(onItsWay->second);
@@ -136,6 +138,8 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, const Result<std::vect
         device->clearPending(fieldIndex);
         for (const PollValue &value : *values)
             device->take(value);
+    } else if (device && mayHaveArrived(values.error())) {
+        device->setUnconfirmed(fieldIndex, raw, values.error().text);
     } else if (device) {
         device->setFailed(fieldIndex, values.error().text);
     }
@@ -213,6 +217,9 @@ void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done don
                 const Result<void> one = results ? (*results)[i] : tl::unexpected(results.error());
                 if (!one) {
                     outcome->result = one;
+                    const int torque = device ? device->table().indexOf(Known::TorqueEnable) : -1;
+                    if (torque >= 0 && mayHaveArrived(one.error()))
+                        device->setUnconfirmed(torque, on ? 1 : 0, one.error().text);
                     emit failed(device, one.error());
                 } else if (device) {
                     device->takeReadBack(device->table().indexOf(Known::TorqueEnable), on ? 1 : 0);

@@ -56,7 +56,8 @@ private:
 
     Result<void> checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const;
     void sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done);
-    void finishWrite(DeviceKey key, int fieldIndex, const Result<std::vector<PollValue>> &values, const Done &done);
+    void finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw, const Result<std::vector<PollValue>> &values,
+                     const Done &done);
     void refuse(Device *device, const Error &error, const Done &done, int field = -1);
     Done reporting(Device &device, const QString &success, Done done);
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);

@@ -59,6 +59,12 @@ EffectiveField Device::effective(int fieldIndex) const
                                 [this](QStringView name) { return raw(name); });
 }
 
+bool Device::mayHaveTorqueOn() const
+{
+    const int torque = m_table->indexOf(Known::TorqueEnable);
+    return isTorqueOn() || (torque >= 0 && value(torque).unconfirmed);
+}
+
 bool Device::goalTurnsTorqueOn() const
 {
     constexpr int Bit = 3;
@@ -117,6 +123,14 @@ void Device::setAlert(bool alert)
     emit attributesChanged();
 }
 
+void Device::setAnswersOnlyPing(bool onlyPing)
+{
+    if (m_answersOnlyPing == onlyPing)
+        return;
+    m_answersOnlyPing = onlyPing;
+    emit attributesChanged();
+}
+
 void Device::setHeard(LineTime at)
 {
     m_lastHeard = std::max(m_lastHeard, at);
@@ -147,7 +161,10 @@ void Device::take(const PollValue &value, FieldState as)
         // A failed write stays to be seen until the value moves or somebody tries again.
         const bool keeps = now.state == FieldState::Pending || (now.state == FieldState::Failed && now.raw == raw);
         const FieldState state = keeps ? now.state : as;
-        const bool changed = now.raw != raw || now.state != state;
+        const bool confirms = as == FieldState::Fresh && now.unconfirmed;
+        const bool changed = now.raw != raw || now.state != state || confirms;
+        if (confirms)
+            now.unconfirmed.reset();
         now.raw = raw;
         now.at = value.at;
         now.state = state;
@@ -202,6 +219,14 @@ void Device::setFailed(int fieldIndex, const QString &error)
     value.state = FieldState::Failed;
     value.error = error;
     emit fieldsChanged(fieldIndex, fieldIndex);
+}
+
+void Device::setUnconfirmed(int fieldIndex, std::int64_t sent, const QString &error)
+{
+    FieldValue &value = m_values[static_cast<std::size_t>(fieldIndex)];
+    value.unconfirmed = sent;
+    value.at = std::chrono::steady_clock::now().time_since_epoch(); // what was polled before it is older news
+    setFailed(fieldIndex, error);
 }
 
 void Device::clearFailures()

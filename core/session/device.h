@@ -26,6 +26,7 @@ struct FieldValue {
     LineTime at{};                   ///< when
     FieldState state = FieldState::Unknown;
     std::optional<std::int64_t> pending; ///< what is being written
+    std::optional<std::int64_t> unconfirmed; ///< was sent, and nothing was read since: raw may hold no more
     QString error;
 };
 
@@ -62,12 +63,14 @@ public:
     State state() const { return m_state; }
     LineTime lastHeard() const { return m_lastHeard; }
     bool alert() const { return m_alert; }
+    bool answersOnlyPing() const { return m_answersOnlyPing; } ///< while Silent: it is there, but no Read is answered
     Traits traits() const;
 
     const FieldValue &value(int fieldIndex) const { return m_values[static_cast<std::size_t>(fieldIndex)]; }
     std::optional<std::int64_t> raw(QStringView fieldName) const;
     std::optional<std::int64_t> raw(Known field) const;
     EffectiveField effective(int fieldIndex) const;
+    bool mayHaveTorqueOn() const; ///< it is on, or was turned on or off and nobody could read what came of it
     bool isTorqueOn() const { return raw(Known::TorqueEnable).value_or(0) == 1; }
     bool goalTurnsTorqueOn() const; ///< by its Drive Mode, where its firmware knows that
     /// Why the field can't be written now, in a sentence; empty where it can. Silence is no reason: a device may be told to
@@ -81,6 +84,7 @@ public:
     void setFound(const Found &found);
     void setState(State state);
     void setAlert(bool alert);
+    void setAnswersOnlyPing(bool onlyPing);
     void setHeard(LineTime at);
     /// Bytes that were read; a pending field stays pending, a failed one failed until its value moves; older news are
     /// dropped. Stale: the device was there then.
@@ -89,6 +93,7 @@ public:
     void setPending(int fieldIndex, std::int64_t raw);
     void clearPending(int fieldIndex);           ///< the write is over; take() what was read back
     void setFailed(int fieldIndex, const QString &error);
+    void setUnconfirmed(int fieldIndex, std::int64_t sent, const QString &error); ///< failed, but may have been done
     void clearFailures();                        ///< somebody asked for everything anew
     void setAllStale();
     /// @}
@@ -105,6 +110,7 @@ private:
     QString m_nickname;
     State m_state = State::Present;
     bool m_alert = false;
+    bool m_answersOnlyPing = false;
     LineTime m_lastHeard{};
     std::vector<FieldValue> m_values; ///< one per field of the table
 };

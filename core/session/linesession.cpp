@@ -226,7 +226,7 @@ void LineSession::take(const Batch &batch)
     for (const PollValue &value : batch.values) {
         Device *device = this->device(value.device);
         if (value.data.empty()) {
-            countFailure(*device, value.error);
+            countFailure(*device, value);
             continue;
         }
         device->setAlert(value.alert);
@@ -240,14 +240,19 @@ void LineSession::take(const Batch &batch)
 void LineSession::answered(Device &device)
 {
     m_failures[device.key()] = 0;
+    device.setAnswersOnlyPing(false);
     if (device.state() == Device::State::Silent)
         park(device);
 }
 
-void LineSession::countFailure(Device &device, const Error &error)
+void LineSession::countFailure(Device &device, const PollValue &value)
 {
-    if (device.raw(Known::StatusReturnLevel) == 0)
-        return; // no Read is answered by it
+    const Error &error = value.error;
+    if (device.raw(Known::StatusReturnLevel) == 0 && value.answersPing && state() == BusThread::State::Open) {
+        device.setAllStale(); // no Read is answered by it: it is there, and what was read is old
+        return answered(device);
+    }
+    device.setAnswersOnlyPing(value.answersPing);
     if (error.kind == ErrorKind::Refused || error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled)
         return; // it is there, or nobody waited for it
     if (++m_failures[device.key()] >= SilentAfter && device.state() == Device::State::Present)

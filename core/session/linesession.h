@@ -74,7 +74,7 @@ private:
     void onThreadState();
     void takeBatches();
     void take(const Batch &batch);
-    void countFailure(Device &device, const Error &error);
+    void countFailure(Device &device, const PollValue &value);
     void measureRates();
     void park(Device &device);
     void countAnew(const Device &device);
