@@ -38,6 +38,7 @@ Result<void> pollAll(const Work &work, StatsDevices &all, StatsOutcome &outcome)
         ++outcome.cycles;
         outcome.cycleTimes.add(batch.end - batch.begin);
         for (const PollValue &value : batch.values) {
+            all.devices[value.device].answersPing = value.data.empty() && value.answersPing;
             if (Error &first = all.devices[value.device].error; value.data.empty() && first.text.isEmpty())
                 first = value.error;
         }
@@ -45,6 +46,16 @@ Result<void> pollAll(const Work &work, StatsDevices &all, StatsOutcome &outcome)
     outcome.duration = work.bus.line().now() - begin;
     outcome.quality = work.bus.quality().since(before);
     return done || done.error().kind != ErrorKind::Cancelled ? done : Result<void>();
+}
+
+Error neverAnswered(const Bus &bus, const StatsDevice &device, int baudRate)
+{
+    const QString text = QStringLiteral("ID %1 never answered at %2 bps").arg(device.found.id).arg(baudRate);
+    std::vector<std::uint8_t> others = bus.alive();
+    std::erase(others, device.found.id);
+    if (others.empty())
+        return {device.error.kind, text + QStringLiteral(": is it powered, and still at this ID and rate?")};
+    return messages::withOthers({device.error.kind, text}, others);
 }
 
 } // namespace
@@ -68,13 +79,9 @@ ExitCode statsCommand(const Work &work)
     ExitCode code = ExitCode::Done;
     for (const StatsDevice &device : all->devices) {
         const DeviceQuality *quality = outcome.quality.device(device.found.id);
-        if (!quality || quality->good > 0 || quality->bad() == 0)
-            continue;
-        std::vector<std::uint8_t> others = work.bus.alive();
-        std::erase(others, device.found.id);
-        const QString text
-            = QStringLiteral("ID %1 never answered; the first time, %2").arg(device.found.id).arg(device.error.text);
-        code = work.output.fail(messages::withOthers({device.error.kind, text}, others));
+        if (quality && quality->good == 0 && quality->bad() > 0)
+            code = work.output.fail(device.answersPing ? messages::answersOnlyPing(device.found.id)
+                                                       : neverAnswered(work.bus, device, work.options.baudRate));
     }
     return code;
 }

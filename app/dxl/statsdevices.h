@@ -14,6 +14,7 @@ struct StatsDevice {
     QString model;
     QStringList watched; ///< what is read, in words
     Error error;         ///< the first one, which says most: who was silent is only said to be later
+    bool answersPing = false; ///< when it was asked last, and no Read
 };
 
 struct StatsDevices {
