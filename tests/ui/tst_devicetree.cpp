@@ -203,6 +203,29 @@ private slots:
         QVERIFY(index.data(DeviceTreeModel::SubtitleRole).toString().startsWith(QStringLiteral("Does not answer")));
     }
 
+    void aDeviceThatAnswersOnlyPingIsSaidToDoJustThat()
+    {
+        m_line->heard(found(1, 1000000));
+        Device *device = m_line->deviceAt(1, 1000000);
+        const QModelIndex index = m_model->indexOf(device);
+        device->setState(Device::State::Silent);
+        device->setAnswersOnlyPing(true);
+        QCOMPARE(index.data(DeviceTreeModel::SubtitleRole).toString(), QStringLiteral("Answers Ping but no Read"));
+        QVERIFY(index.data(Qt::ToolTipRole).toString().contains(QStringLiteral("Status Return Level")));
+        m_line->answered(*device);
+        QVERIFY(!device->answersOnlyPing());
+
+        const int torque = device->table().indexOf(Known::TorqueEnable);
+        device->takeReadBack(torque, 0);
+        QCOMPARE(index.data(DeviceTreeModel::TorqueRole), QVariant(false));
+        device->setUnconfirmed(torque, 1, QStringLiteral("nothing came back"));
+        QCOMPARE(index.data(DeviceTreeModel::SubtitleRole).toString(),
+                 QStringLiteral("Torque on sent, not confirmed"));
+        QVERIFY(!index.data(DeviceTreeModel::TorqueRole).isValid());
+        device->takeReadBack(torque, 0);
+        QCOMPARE(index.data(DeviceTreeModel::SubtitleRole).toString(), QStringLiteral("Torque off"));
+    }
+
     void severalLines()
     {
         m_line->heard(found(1, 1000000));

@@ -317,6 +317,23 @@ private slots:
         QVERIFY(empty->text().contains(QStringLiteral("found on the line")));
     }
 
+    void aDeviceThatAnswersOnlyPingIsNoBadCable()
+    {
+        HealthRow row;
+        row.key = 1;
+        row.name = QStringLiteral("XM430-W350");
+        row.quality.id = 3;
+        row.quality.timeouts = 6;
+        const auto help = [&](HealthColumn column) { return healthHelp(row, column); };
+        QVERIFY(help(HealthColumn::Bad).contains(QStringLiteral("no power")));
+        QVERIFY(help(HealthColumn::Missing).contains(QStringLiteral("no power")));
+        row.onlyPing = true;
+        for (const HealthColumn column : {HealthColumn::Name, HealthColumn::Bad, HealthColumn::Missing}) {
+            QVERIFY(!help(column).contains(QStringLiteral("no power")));
+            QVERIFY(help(column).contains(QStringLiteral("answers Ping but no Read")));
+        }
+    }
+
 private:
     /// A line with these faults and three devices at its rate.
     void connectTo(const sim::LineFaults &faults)

@@ -50,6 +50,27 @@ private slots:
             QVERIFY(guard.holding().empty());
         }
     }
+
+    void countsWhatNobodyCouldReadBack()
+    {
+        test::WorkbenchFixture bench;
+        QWidget window;
+        TorqueGuard guard(bench.workbench(), &window);
+        LineSession &line = bench.session.open(QStringLiteral("sim"), 1'000'000);
+        QTRY_COMPARE(line.state(), BusThread::State::Open);
+        Device &device = line.heard({1, 1'000'000, 1020, 45, false, {}});
+        const int torque = device.table().indexOf(Known::TorqueEnable);
+        device.takeReadBack(torque, 0);
+        device.setPending(torque, 1);
+        QVERIFY(guard.holding().empty());
+        device.setUnconfirmed(torque, 1, QStringLiteral("nothing came back"));
+        QCOMPARE(guard.holding().size(), std::size_t(1));
+        guard.noteEnabled({device.key()}); // as after "Torque on" for several
+        device.setUnconfirmed(torque, 1, QStringLiteral("nothing came back"));
+        QCOMPARE(guard.holding().size(), std::size_t(1));
+        device.takeReadBack(torque, 0); // it can be read again
+        QVERIFY(guard.holding().empty());
+    }
 };
 
 DYNASCOPE_UI_TEST(TestTorqueGuard)

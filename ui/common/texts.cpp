@@ -106,13 +106,19 @@ QString deviceStateText(const Device &device)
     case Device::State::Present: break;
     case Device::State::Parked:
         return Texts::tr("Parked, heard %1").arg(agoText(device.lastHeard()));
-    case Device::State::Silent: return Texts::tr("Does not answer");
+    case Device::State::Silent:
+        return device.answersOnlyPing() ? Texts::tr("Answers Ping but no Read") : Texts::tr("Does not answer");
     case Device::State::Rebooting: return Texts::tr("Rebooting…");
     }
     if (!device.doubt().isEmpty())
         return device.doubt();
     if (!device.isKnownModel())
         return Texts::tr("Model %1 is unknown").arg(device.modelNumber());
+    const int enable = device.table().indexOf(Known::TorqueEnable);
+    if (enable >= 0 && device.value(enable).unconfirmed) {
+        return *device.value(enable).unconfirmed != 0 ? Texts::tr("Torque on sent, not confirmed")
+                                                      : Texts::tr("Torque off sent, not confirmed");
+    }
     const auto torque = device.raw(u"Torque Enable");
     if (!torque)
         return Texts::tr("Present");
@@ -126,6 +132,10 @@ QString deviceStateHelp(const Device &device)
         return Texts::tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
             .arg(baudText(device.baudRate()), agoText(device.lastHeard()));
     case Device::State::Silent:
+        if (device.answersOnlyPing()) {
+            return Texts::tr("It answers Ping but no Read, as a Status Return Level of 0 tells a device to. Set Status "
+                             "Return Level to 1 or 2 and it can be read again.");
+        }
         return Texts::tr("%1. Is it powered, and still at this ID and baud rate?")
             .arg(withNeighbours(
                 device, Texts::tr("It does not answer; last heard %1").arg(agoText(device.lastHeard()))));

@@ -57,7 +57,10 @@ QVariant DeviceTreeModel::deviceData(const Device &device, int role) const
         return device.state() != Device::State::Present
             || (device.line() && device.line()->state() != BusThread::State::Open);
     case TorqueRole: {
-        const auto torque = device.raw(u"Torque Enable");
+        const int enable = device.table().indexOf(Known::TorqueEnable);
+        const auto torque = device.raw(Known::TorqueEnable);
+        if (enable >= 0 && device.value(enable).unconfirmed)
+            return {};
         return torque ? QVariant(*torque != 0) : QVariant();
     }
     case Qt::ToolTipRole: {

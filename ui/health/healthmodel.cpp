@@ -54,6 +54,7 @@ std::vector<HealthRow> HealthModel::makeRows(const Device *leaving) const
         if (const DeviceQuality *known = health.quality().device(device->id()))
             row.quality = *known;
         row.quality.id = device->id();
+        row.onlyPing = device->answersOnlyPing() || device->raw(Known::StatusReturnLevel) == 0;
         rows.push_back(std::move(row));
     }
     if (rows.empty())

@@ -52,6 +52,11 @@ QString badHelp(const HealthRow &row)
 {
     const DeviceQuality &quality = row.quality;
     const auto fault = mainFault(quality);
+    if (row.onlyPing) {
+        return HealthTexts::tr("%1 answers Ping but no Read, as a Status Return Level of 0 tells a device to; that "
+                               "says nothing against power, plugs or cable.")
+            .arg(who(row));
+    }
     if (quality.asked() == 0)
         return HealthTexts::tr("%1: nothing has been asked since counting began.").arg(who(row));
     if (!fault)
@@ -159,12 +164,12 @@ QString healthHelp(HealthColumn column)
 
 QString healthHelp(const HealthRow &row, HealthColumn column)
 {
-    if (const auto fault = faultOf(column)) {
+    if (const auto fault = faultOf(column); fault && !(row.onlyPing && *fault == AnswerFault::Missing)) {
         return HealthTexts::tr("%1, %2: %3 of %4 answers. %5 %6")
             .arg(who(row), faultName(*fault), grouped(countOf(row.quality, *fault)), grouped(row.quality.asked()),
                  faultMeaning(*fault), usualCauses(*fault));
     }
-    if (column != HealthColumn::Name && column != HealthColumn::Id && column != HealthColumn::Bad)
+    if (!faultOf(column) && column != HealthColumn::Name && column != HealthColumn::Id && column != HealthColumn::Bad)
         return healthHelp(column);
     QString text = badHelp(row);
     if (row.strays > 0)

@@ -14,6 +14,7 @@ struct HealthRow {
     DeviceQuality quality;
     double bytesPerSecond = 0;
     quint64 strays = 0; ///< of the line
+    bool onlyPing = false; ///< it answers nothing else: no fault of cable or power
 
     bool isLine() const { return key == 0; }
     friend bool operator==(const HealthRow &, const HealthRow &) = default;

@@ -7,6 +7,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include <algorithm>
+
 namespace dynascope {
 
 TorqueGuard::TorqueGuard(const Workbench &workbench, QWidget *window)
@@ -44,7 +46,7 @@ void TorqueGuard::onFields(Device *device, int first, int last)
         m_enabled.insert_or_assign(device->key(), false);
     else if (known != m_enabled.end() && value.raw == 1)
         known->second = true;
-    else if (known != m_enabled.end() && value.raw == 0 && known->second)
+    else if (known != m_enabled.end() && value.raw == 0 && known->second && !value.unconfirmed)
         m_enabled.erase(known); // whoever turns it on next is not necessarily us
 }
 
@@ -59,7 +61,7 @@ std::vector<Device *> TorqueGuard::holding() const
     std::vector<Device *> devices;
     for (const auto &[key, seen] : m_enabled) {
         Device *device = m_workbench.session.device(key);
-        if (device && device->isTorqueOn() && device->line()->state() == BusThread::State::Open)
+        if (device && device->mayHaveTorqueOn() && device->line()->state() == BusThread::State::Open)
             devices.push_back(device);
     }
     return devices;
@@ -75,10 +77,12 @@ bool TorqueGuard::mayClose()
     QStringList names;
     for (const Device *device : devices)
         names << device->displayName();
+    const bool isSure = std::ranges::all_of(devices, &Device::isTorqueOn); // else nobody could read it back
+    const QString who = names.join(QStringLiteral(", "));
+    const QString verb = !isSure ? tr("%1 may stand").arg(who) : names.size() == 1 ? tr("%1 stands").arg(who)
+                                                                                  : tr("%1 stand").arg(who);
     auto *box = new QMessageBox(QMessageBox::Question, tr("Devices under torque"),
-        tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.")
-            .arg(names.size() == 1 ? tr("%1 stands").arg(names.first())
-                                   : tr("%1 stand").arg(names.join(QStringLiteral(", ")))),
+        tr("%1 under torque, which was turned on here. Closing the window changes nothing about it.").arg(verb),
         QMessageBox::Cancel, m_window);
     box->setObjectName(QStringLiteral("torqueBox"));
     box->setTextFormat(Qt::PlainText); // nicknames are in it

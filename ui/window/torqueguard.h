@@ -20,7 +20,7 @@ public:
     TorqueGuard(const Workbench &workbench, QWidget *window);
 
     void noteEnabled(const std::vector<DeviceKey> &devices);
-    std::vector<Device *> holding() const; ///< those of them that still are under torque
+    std::vector<Device *> holding() const; ///< those of them that still are under torque, or may be
     /// True: the window may close. False: it has asked; closeAgreed() follows, or nothing.
     bool mayClose();
 
