@@ -147,19 +147,22 @@ void StatusView::updateErrors()
         m_errors->setToolTip({});
         return;
     }
-    const BusStatistics seen = m_line->bus().statistics();
-    const quint64 errors = seen.timeouts + seen.crcErrors + seen.lengthErrors;
+    const LineQuality &quality = m_line->health().quality(); // the same counts as in Bus health
+    const DeviceQuality all = quality.sum();
+    const BusStatistics &seen = quality.totals;
+    const quint64 errors = all.bad();
     m_errors->setText(QString::number(errors));
     QPalette ink = palette();
     if (errors > 0)
         ink.setColor(QPalette::WindowText, colors(palette()).warning);
     m_errors->setPalette(ink);
-    const QStringList lines{tr("Since the port was opened:"),
-                            tr("%1 answers that didn't come or were cut off").arg(seen.timeouts),
-                            tr("%1 damaged packets (CRC)").arg(seen.crcErrors),
-                            tr("%1 answers of a wrong length").arg(seen.lengthErrors),
+    const QStringList lines{tr("Since counting began, as Bus health shows:"),
+                            tr("%1 answers that didn't come or were cut off").arg(all.timeouts),
+                            tr("%1 damaged packets (CRC)").arg(all.crcErrors),
+                            tr("%1 answers of a wrong length").arg(all.lengthErrors),
+                            tr("%1 answers that came late").arg(all.lateAnswers),
                             tr("%1 packets nobody asked for").arg(seen.strays),
-                            tr("%1 requests sent again").arg(seen.retries),
+                            tr("%1 requests sent again").arg(all.retries),
                             tr("%1 exchanges, %2 answers").arg(seen.exchanges).arg(seen.replies)};
     m_errors->setToolTip(lines.join(QLatin1Char('\n')));
 }
