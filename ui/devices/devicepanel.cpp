@@ -199,7 +199,9 @@ void DevicePanel::selectDevice(Device *device)
 {
     const QModelIndex index = m_model->indexOf(device);
     if (index.isValid()) {
-        m_tree->setCurrentIndex(index);
+        // By the view it would toggle or extend where Ctrl or Shift is held just then.
+        m_tree->selectionModel()->setCurrentIndex(index,
+                                                  QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
         m_tree->scrollTo(index);
     }
 }
