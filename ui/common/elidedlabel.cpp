@@ -27,7 +27,9 @@ void ElidedLabel::setText(const QString &text)
 
 QSize ElidedLabel::sizeHint() const
 {
-    return {fontMetrics().horizontalAdvance(m_text) + 2, fontMetrics().height() + 2};
+    const QMargins around = contentsMargins();
+    return {fontMetrics().horizontalAdvance(m_text) + 2 + around.left() + around.right(),
+            fontMetrics().height() + 2 + around.top() + around.bottom()};
 }
 
 QSize ElidedLabel::minimumSizeHint() const
@@ -37,14 +39,14 @@ QSize ElidedLabel::minimumSizeHint() const
 
 QString ElidedLabel::elided() const
 {
-    return fontMetrics().elidedText(m_text, Qt::ElideMiddle, width());
+    return fontMetrics().elidedText(m_text, Qt::ElideMiddle, contentsRect().width());
 }
 
 void ElidedLabel::paintEvent(QPaintEvent *)
 {
     QPainter painter(this);
     painter.setPen(palette().color(foregroundRole()));
-    painter.drawText(rect(), Qt::AlignVCenter | Qt::AlignLeft | Qt::TextSingleLine, elided());
+    painter.drawText(contentsRect(), Qt::AlignVCenter | Qt::AlignLeft | Qt::TextSingleLine, elided());
 }
 
 bool ElidedLabel::event(QEvent *event)

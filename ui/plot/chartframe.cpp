@@ -74,7 +74,7 @@ qreal columnWidth(const QFont &font)
 /// As many as leave the traces room; one always.
 int rightColumns(const ChartFrame::Content &content)
 {
-    constexpr int LeastPlot = 160;
+    constexpr int LeastPlot = 110;
     const qreal column = columnWidth(content.font);
     const qreal free = content.size.width() - content.room.left * column - LeastPlot;
     return std::min(content.room.right, std::max(1, static_cast<int>(free / column)));
@@ -206,8 +206,9 @@ void ChartFrame::paintValues(QPainter &painter, const Content &content, int axis
         painter.drawText(QRectF(left, y - line / 2, width, line), Qt::AlignVCenter | side | Qt::TextDontClip,
                          labelText(at, value.range.decimals));
     });
+    // Above its column it stays clear of the topmost number.
     const QRectF above = axis == 0 ? QRectF(area.left(), 0, area.width(), area.top() - 3)
-                                   : QRectF(left, 0, column, area.top() - 3);
+                                   : QRectF(left, 1, column, line);
     painter.drawText(above, Qt::AlignBottom | Qt::AlignLeft | Qt::TextDontClip, value.title);
 }
 
