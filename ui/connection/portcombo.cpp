@@ -50,6 +50,8 @@ void PortCombo::setPort(const QString &name)
         setCurrentIndex(index);
     else
         setEditText(name);
+    if (!lineEdit()->hasFocus())
+        lineEdit()->home(false); // of a long path the beginning is in sight
 }
 
 std::vector<PortCombo::Entry> PortCombo::entries() const

@@ -120,7 +120,7 @@ void LayoutManager::arrangeHealth()
 {
     if (!m_healthShown || !m_health.isEmpty())
         return;
-    const int height = std::min(HealthHeight, m_whole.height() / 3);
+    const int height = std::min(HealthHeight, m_whole.height() * 2 / 5);
     m_whole.setSizes({m_whole.height() - height, height});
 }
 
