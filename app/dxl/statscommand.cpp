@@ -51,11 +51,9 @@ Result<void> pollAll(const Work &work, StatsDevices &all, StatsOutcome &outcome)
 Error neverAnswered(const Bus &bus, const StatsDevice &device, int baudRate)
 {
     const QString text = QStringLiteral("ID %1 never answered at %2 bps").arg(device.found.id).arg(baudRate);
-    std::vector<std::uint8_t> others = bus.alive();
-    std::erase(others, device.found.id);
-    if (others.empty())
-        return {device.error.kind, text + QStringLiteral(": is it powered, and still at this ID and rate?")};
-    return messages::withOthers({device.error.kind, text}, others);
+    if (const auto others = bus.othersAlive(device.found.id); others && !others->empty())
+        return messages::withOthers({device.error.kind, text}, *others);
+    return {device.error.kind, text + QStringLiteral(": is it powered, and still at this ID and rate?")};
 }
 
 } // namespace
