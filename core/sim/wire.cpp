@@ -64,6 +64,8 @@ void Wire::collide(OnWire &first, OnWire &second)
     const Transmission one = first.what, other = second.what; // as they were meant
     merge(first.what, other, from, to);
     merge(second.what, one, from, to);
+    if (other.begin - one.begin >= one.byteTime() / 20) // who listens to the first misses the other's first start bit
+        second.what.damaged = true;
     // An adapter that hands no echo on doesn't listen while it sends.
     const bool listens = m_echo || (one.sender && other.sender);
     for (std::size_t i = 0; !listens && i < first.absorbed.size(); ++i)
