@@ -41,13 +41,8 @@ Controller::Controller(const MotorModel &motor)
 double Controller::pwm(const JointSettings &settings, const JointTuning &tuning, const Feedback &feedback)
 {
     double next = order(settings, tuning, feedback);
-    const double perVolt = settings.fullPwm / std::max(1.0, feedback.voltage);
-    if (settings.limitsEveryCurrent) {
-        const double emf = m_last - feedback.current * m_resistance * perVolt;
-        const double room = std::abs(settings.currentLimit * settings.currentUnit / 1000) * m_resistance * perVolt;
-        next = within(std::clamp(next, emf - room, emf + room), pwmBound(settings));
-    }
     if (settings.pwmSlope > 0) {
+        const double perVolt = settings.fullPwm / std::max(1.0, feedback.voltage);
         const double most = settings.pwmSlope * std::max(1, tuning.loopTime) * perVolt;
         next = std::clamp(next, m_last - most, m_last + most);
     }
@@ -90,7 +85,8 @@ double Controller::position(const JointSettings &settings, const JointTuning &tu
     const double error = (feedback.wanted.position - feedback.position) * unit;
     m_integral = within(m_integral + error * settings.positionI / positionIScale, bound);
     return within(error * settings.positionP / positionPScale + m_integral
-                      + (feedback.wanted.velocity - feedback.velocity) * unit * loop * settings.positionD / positionDScale
+                      + (feedback.wanted.velocity - feedback.velocity) * unit * loop * settings.positionD
+                            / positionDScale
                       + feedback.wanted.velocity * unit * loop * settings.feedforward1 / feedforwardScale
                       + feedback.wanted.acceleration * unit * loop * loop * settings.feedforward2 / feedforwardScale,
                   bound);
@@ -113,8 +109,8 @@ double Controller::current(const JointSettings &settings, double wanted, double 
 {
     const double perVolt = settings.fullPwm / std::max(1.0, feedback.voltage);
     const double error = (wanted - feedback.current) * m_resistance * perVolt;
-    // What keeps the current below its ceiling at this speed, also while braking. The last PWM and the current it brought
-    // tell back-EMF a few milliseconds before the velocity estimate does.
+    // What keeps the current below its ceiling at this speed, also while braking. The last PWM and the current it
+    // brought tell back-EMF a few milliseconds before the velocity estimate does.
     const double emf = m_last - feedback.current * m_resistance * perVolt;
     const double room = ceiling * m_resistance * perVolt;
     const double feed = wanted * m_resistance * perVolt;

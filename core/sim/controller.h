@@ -18,8 +18,8 @@ struct Feedback {
 };
 
 /// The controllers of an X servo, one call each loop. No cascade: each mode is one controller that gives PWM (or
-/// a current, for the current loop), and Goal PWM bounds the PWM in every mode. Manual: "Position PID Gain", "Velocity PI
-/// Gain", "Operating Mode". A value.
+/// a current, for the current loop), and Goal PWM bounds the PWM in every mode. Manual: "Position PID Gain", "Velocity
+/// PI Gain", "Operating Mode". A value.
 class Controller
 {
 public:

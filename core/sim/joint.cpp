@@ -116,12 +116,22 @@ void Joint::feel(double volts)
         wake();
 }
 
+/// Where Current Limit always holds, the bridge itself keeps it, quicker than the controllers.
+double Joint::boundedDuty() const
+{
+    if (!m_settings.limitsEveryCurrent || m_volts <= 0)
+        return duty();
+    const double emf = m_plant.backEmf() * m_plant.speed() / m_volts;
+    const double room = m_settings.currentLimit * m_settings.currentUnit / 1000 * m_plant.resistance() / m_volts;
+    return std::clamp(std::clamp(duty(), emf - std::abs(room), emf + std::abs(room)), -1.0, 1.0);
+}
+
 void Joint::move()
 {
     const int overloadBefore = m_overloadTicks;
     const bool pushed = m_plant.load().changesByItself();
     for (int i = 0; i < substeps; ++i)
-        m_plant.step(tickSeconds / substeps, duty(), m_volts, m_torque);
+        m_plant.step(tickSeconds / substeps, boundedDuty(), m_volts, m_torque);
     m_plant.load().passTime(tickSeconds);
     // The share of the new makes a filter of that time constant.
     const double share = 1 / (0.5 + std::max(0.5, tuning().velocityFilter));
@@ -229,7 +239,8 @@ void Joint::setGoalVelocity(int raw)
 {
     if (!m_torque || m_settings.operatingMode != 1)
         return;
-    m_ramp = VelocityRamp(trajectory().velocity, raw * m_settings.velocityUnit * m_settings.resolution / 60000, limits());
+    const double goal = raw * m_settings.velocityUnit * m_settings.resolution / 60000;
+    m_ramp = VelocityRamp(trajectory().velocity, goal, limits());
     m_start = m_tick;
     m_stopped = m_resting = false;
 }

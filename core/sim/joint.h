@@ -11,23 +11,23 @@
 
 namespace dynascope::sim {
 
-/// One joint's physics and controllers: a linear DC motor, inertia, friction, a load, integrated in steps of 0.5 ms up to
-/// *now* when somebody asks. Deterministic. Any one thread.
+/// One joint's physics and controllers: a linear DC motor, inertia, friction, a load, integrated in steps of 0.5 ms up
+/// to *now* when somebody asks. Deterministic. Any one thread.
 class Joint
 {
 public:
-    Joint(const MotorModel &motor, std::uint64_t seed = 1);
-    void beginAt(std::int64_t microseconds);   ///< what lies before was nothing
+    explicit Joint(const MotorModel &motor, std::uint64_t seed = 1);
+    void beginAt(std::int64_t microseconds); ///< what lies before was nothing
     void advanceTo(std::int64_t microseconds); ///< bus's clock; never back. Takes those on the same supply along
 
     void configure(const JointSettings &settings); ///< after any of those registers was written
     const JointSettings &settings() const { return m_settings; }
     void useTuning(const JointTuning *tuning) { m_tuning = tuning; } ///< outlives the joint; nullptr: the usual
-    /// Turning on holds still, in position and velocity modes, until a goal is set; Goal PWM and Goal Current act at once.
+    /// Turning on holds still until a goal is set; in the modes of Goal PWM and Goal Current these act at once.
     void setTorque(bool on);
     bool torque() const { return m_torque; }
-    /// Begins a profile from where the trajectory is now. In the same frame as JointState::position. Without torque, or in
-    /// a mode without positions, nothing.
+    /// Begins a profile from where the trajectory is now, in the frame of JointState::position. Without torque, or in a
+    /// mode without positions, nothing.
     void setGoalPosition(std::int32_t pulses);
     void setGoalVelocity(int raw); ///< velocity mode: uses Profile Acceleration alone
     void stopMotion();             ///< Bus Watchdog: hold still until a goal is set or changes, or endStop()
@@ -48,8 +48,8 @@ public:
     void setGravityArm(double newtonMetresAtHorizontal);
     void setExtraInertia(double kilogramSquareMetres);
     void setStops(std::optional<double> lowest, std::optional<double> highest); ///< stiff; where the shaft can't go
-    void push(double newtonMetres, double seconds);                             ///< a hand, from now on
-    void hold(std::optional<double> degrees);                                   ///< a hand that keeps it there, or lets go
+    void push(double newtonMetres, double seconds); ///< a hand, from now on
+    void hold(std::optional<double> degrees); ///< a hand that keeps it there, or lets go
     void setAmbientTemperature(double celsius);
     void setShaftAngle(double degrees); ///< jump there; for starting positions
     void setPowered(bool powered);      ///< without power no torque, and its electronics draw nothing
@@ -89,6 +89,7 @@ private:
     std::uint8_t movingStatus() const;
     bool positionMode() const { return m_settings.operatingMode >= 3 && m_settings.operatingMode <= 5; }
     double direction() const { return m_settings.driveMode & 1 ? -1.0 : 1.0; }
+    double boundedDuty() const;
     double duty() const { return direction() * m_pwm / m_settings.fullPwm; }
     double pulsesPerRadian() const { return m_settings.resolution * 0.15915494309189535; }
     const JointTuning &tuning() const;
@@ -107,8 +108,7 @@ private:
     std::int64_t m_tick = 0;   ///< ms on the bus's clock; what comes in between two of them acts from the later on
     std::int64_t m_origin = 0; ///< where the clock stood at first
     std::int64_t m_start = 0;  ///< of the profile or ramp
-    double m_velocity = 0;     ///< pulses/ms, the estimate, in the shaft's direction
-    double m_pwm = 0;          ///< raw, as the register
+    double m_velocity = 0, m_pwm = 0; ///< pulses/ms, the estimate, in the shaft's direction; raw, as the register
     double m_volts = 12, m_restVolts = 12;
     double m_copperHeat = 0, m_bodyHeat = 0; ///< W × ms since the temperatures were last reckoned
     int m_heatTicks = 0, m_overloadTicks = 0;

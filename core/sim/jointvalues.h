@@ -7,7 +7,8 @@ namespace dynascope::sim {
 
 /// The registers that steer motion, in the manufacturer's raw units, and what the units are.
 struct JointSettings {
-    int operatingMode = 3;      ///< 0 current, 1 velocity, 3 position, 4 extended position, 5 current-based position, 16 PWM
+    /// 0 current, 1 velocity, 3 position, 4 extended position, 5 current-based position, 16 PWM
+    int operatingMode = 3;
     std::uint8_t driveMode = 0; ///< bit 0 reverse, bit 2 time-based profile
     int positionP = 800, positionI = 0, positionD = 0, feedforward1 = 0, feedforward2 = 0;
     int velocityP = 100, velocityI = 1920;

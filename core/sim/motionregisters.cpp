@@ -106,22 +106,25 @@ JointSettings MotionRegisters::gains() const
     settings.positionD = number(Reg::PositionDGain);
     settings.feedforward1 = number(Reg::Feedforward1stGain);
     settings.feedforward2 = number(Reg::Feedforward2ndGain);
-    settings.velocityP = number(Reg::VelocityPGain);
-    settings.velocityI = number(Reg::VelocityIGain);
+    // A model without velocity gains (XL-320) has a controller nevertheless.
+    settings.velocityP = m_registers.has(Reg::VelocityPGain) ? number(Reg::VelocityPGain) : 1;
+    settings.velocityI = m_registers.has(Reg::VelocityIGain) ? number(Reg::VelocityIGain) : 1;
     return settings;
 }
 
 void MotionRegisters::setBounds(JointSettings &settings) const
 {
     const auto number = [this](Reg reg, int otherwise) {
-        return m_registers.has(reg) ? static_cast<int>(signedValue(m_registers, reg)) : otherwise;
+        const std::int64_t value = std::clamp<std::int64_t>(m_registers.get(reg), -Unlimited, Unlimited);
+        return m_registers.has(reg) ? static_cast<int>(value) : otherwise;
     };
     if (const Field *limit = m_registers.field(Reg::PwmLimit); limit && limit->maximum.number.value_or(0) > 0)
         settings.fullPwm = static_cast<double>(*limit->maximum.number);
     settings.pwmLimit = number(Reg::PwmLimit, static_cast<int>(settings.fullPwm));
     settings.goalPwm = number(Reg::GoalPwm, settings.pwmLimit);
-    settings.velocityLimit = number(Reg::VelocityLimit, Unlimited);
-    settings.goalVelocity = std::clamp(number(Reg::GoalVelocity, 0), -settings.velocityLimit, settings.velocityLimit);
+    settings.velocityLimit = std::max(0, number(Reg::VelocityLimit, Unlimited));
+    settings.goalVelocity = static_cast<int>(std::clamp<std::int64_t>(
+        signedValue(m_registers, Reg::GoalVelocity), -settings.velocityLimit, settings.velocityLimit));
     settings.currentLimit = number(Reg::CurrentLimit, settings.currentLimit);
     settings.goalCurrent = number(Reg::GoalCurrent, settings.currentLimit);
     settings.limitsEveryCurrent = m_registers.has(Reg::CurrentLimit)

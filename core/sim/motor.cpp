@@ -14,8 +14,8 @@ constexpr std::array<const char16_t *, MotorModel::FigureCount> Names{
     u"inertia", u"friction", u"heat", u"overload current",
 };
 
-// What is chosen, and how. Nothing here is in a data sheet; the constants are such that a free 90° step at factory gains
-// looks as users of XM430, XL430 and XL330 see it.
+// What is chosen, and how. Nothing here is in a data sheet; the constants are such that a free 90° step at factory
+// gains looks as users of XM430, XL430 and XL330 see it.
 //
 //   Generic        figures of a model of which nothing is known: one in the middle of the range.
 //   Stall          some series state a continuous load instead (torque, current, speed). The line from the free speed
@@ -26,13 +26,15 @@ constexpr std::array<const char16_t *, MotorModel::FigureCount> Names{
 //                  1.03e-5 · m^(5/3) kg·m², as bodies of one shape do: 1.6 g·cm² for XM430. The time constant at the
 //                  shaft stays within 5 and 40 ms; where the gear ratio isn't stated it is 20 ms.
 //   Friction       dry: 2.5 % of the stall torque, with a cored motor 3.5 %; where the free current is stated, half of
-//                  the torque that it makes. Viscous: as much again at the free speed. (A third more holds what stands: plant.cpp.)
+//                  the torque that it makes. Viscous: as much again at the free speed. A third more holds what
+//                  stands (plant.cpp).
 //   Heat           60 % of the mass at 1 J/(g·K) for the case, a tenth of that for the winding; cooling by the surface,
 //                  m^(2/3). A stalled XM430 passes its temperature limit after one to two minutes and takes about a
 //                  quarter of an hour to cool.
 //   Overload       more than 60 % of the stall current; 1.5 times a stated continuous current.
-constexpr double GenericVoltage = 12, GenericTorque = 2.5, GenericCurrent = 1.4, GenericSpeed = 55; // V, N·m, A, rev/min
-constexpr double GenericMass = 0.07, GenericStandby = 0.05;                                         // kg, A
+constexpr double GenericVoltage = 12, GenericTorque = 2.5, GenericCurrent = 1.4, GenericSpeed = 55;
+// V, N·m, A, rev/min; kg, A
+constexpr double GenericMass = 0.07, GenericStandby = 0.05;
 constexpr double OverMaximum = 1.5, BackEmfShare = 0.9;
 constexpr double RotorInertia = 1.03e-5;
 constexpr double ShortestTime = 0.005, UsualTime = 0.020, LongestTime = 0.040; // s

@@ -9,8 +9,8 @@
 
 namespace dynascope::sim {
 
-/// The electric motor with its gearbox, at the output shaft, as data sheets state it: a linear DC motor. Copper is taken
-/// as cold: resistance doesn't rise with the temperature, as the data sheets' figures don't say at which they hold.
+/// The electric motor with its gearbox, at the output shaft, as data sheets state it: a linear DC motor. Copper is
+/// taken as cold: its resistance doesn't rise with the temperature, as no data sheet says at which its figures hold.
 /// What a data sheet states is known; the rest is chosen, by the rules in motor.cpp.
 struct MotorModel {
     enum Figure {

@@ -24,9 +24,9 @@ private:
     double m_ambient, m_winding, m_body;
 };
 
-/// Shaft and motor: angle, speed and current in the shaft's own direction, in SI units. The winding's inductance is left
-/// out (its time constant is a tenth of a millisecond). Within a step torques and drag are constant, and the motion is
-/// exact; so no step is too long to be stable. A value.
+/// Shaft and motor: angle, speed and current in the shaft's own direction, in SI units. The winding's inductance is
+/// left out (its time constant is a tenth of a millisecond). Within a step torques and drag are constant, and the
+/// motion is exact; so no step is too long to be stable. A value.
 class Plant
 {
 public:

@@ -11,8 +11,8 @@ namespace dynascope::sim {
 
 class Servo;
 
-/// What feeds the servos of a bus. Unless told otherwise a servo joins the first supply whose voltage its factory limits
-/// allow, or gets a new one at the voltage of its data sheet: a 5 V servo beside 12 V ones has a step-down converter.
+/// What feeds the servos of a bus. Unless told otherwise a servo joins the first supply whose voltage its factory
+/// limits allow, or gets a new one at the voltage of its data sheet: a 5 V servo beside 12 V ones has a converter.
 /// Owned by the bus, on its thread; a change counts from the moment the bus has been advanced to.
 class Power
 {

@@ -182,8 +182,17 @@ DeviceError RegisterFile::checkValue(const Field &field, std::int64_t raw, Devic
     const bool tooHigh = now.maximum && raw > *now.maximum;
     if (!tooLow && !tooHigh)
         return DeviceError::None;
-    const bool byRegister = tooLow ? !field.minimum.reg.isEmpty() : !field.maximum.reg.isEmpty();
-    return byRegister ? limitError : DeviceError::DataRange;
+    const Bound *bound = tooLow ? &field.minimum : &field.maximum;
+    for (const Alternate &alternate : field.alternates) {
+        const std::int64_t masked = lookup(alternate.reg).value_or(0) & static_cast<std::int64_t>(alternate.mask);
+        if (std::ranges::find(alternate.values, masked) == alternate.values.end())
+            continue;
+        const Bound &other = tooLow ? alternate.minimum : alternate.maximum;
+        if (other.isSet())
+            bound = &other;
+        break; // the first that holds counts
+    }
+    return bound->reg.isEmpty() ? DeviceError::DataRange : limitError;
 }
 
 void RegisterFile::resetEeprom()

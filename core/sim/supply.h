@@ -9,8 +9,8 @@ namespace dynascope::sim {
 
 class Joint;
 
-/// What feeds the servos on one pair of wires: a voltage behind a resistance, so that it sags under the current of all of
-/// them, and rises when they brake. Keeps their clock: joints that share a supply move together, in steps of 1 ms.
+/// What feeds the servos on one pair of wires: a voltage behind a resistance, so that it sags under the current of all
+/// of them, and rises when they brake. Keeps their clock: joints that share a supply move together, in steps of 1 ms.
 class Supply
 {
 public:

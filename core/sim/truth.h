@@ -16,8 +16,8 @@ class SimulatedBus;
 ///   "motor": "name", and the names of its "known" and "chosen" figures
 QJsonObject truth(Servo &servo);
 
-/// "time" (ms on the bus's clock), "power" with "on" and "supplies" (voltage, resistance, terminalVoltage, current), and
-/// "servos", as above.
+/// "time" (ms on the bus's clock), "power" with "on" and "supplies" (voltage, resistance, terminalVoltage, current),
+/// and "servos", as above.
 QJsonObject truth(const SimulatedBus &bus);
 
 } // namespace dynascope::sim

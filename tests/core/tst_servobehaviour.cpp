@@ -151,6 +151,8 @@ private slots:
         servo().joint().setShaftAngle(90);
         write(u"Drive Mode", 1);
         QCOMPARE(value(u"Present Position"), 3072);
+        write(u"Homing Offset", 500); // keeps its sign
+        QCOMPARE(value(u"Present Position"), 3572);
     }
 
     void watchdogStopsWhatNobodySpeaksTo()

@@ -33,7 +33,8 @@ Response theory(const MotorModel &motor, const JointSettings &gains, double iner
     response.overshoot = std::exp(-std::numbers::pi * ratio / std::sqrt(1 - ratio * ratio));
     response.peakTime = std::numbers::pi / swing * 1000;
     for (double t = 0; t < 30; t += 0.0001) {
-        const double away = std::exp(-ratio * natural * t) * (std::cos(swing * t) + ratio * natural / swing * std::sin(swing * t));
+        const double turn = std::cos(swing * t) + ratio * natural / swing * std::sin(swing * t);
+        const double away = std::exp(-ratio * natural * t) * turn;
         if (std::abs(away) > Band)
             response.settling = t * 1000;
     }

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QByteArray>
+
+namespace dynascope::test {
+
+/// Cut-down tables of other series than X, for the simulator's tests: addresses, sizes and names as those have them.
+inline QByteArray otherSeries()
+{
+    QByteArray json = R"json({
+  "format": 1, "series": "?", "resolution": 4096, "newestFirmware": 45,
+  "baudRates": { "0": 9600, "1": 57600, "2": 115200, "3": 1000000 },
+  "registers": {
+    "Model Number": { "address": 0, "size": 2, "area": "EEPROM", "access": "R", "initial": "model number" },
+    "Torque Enable": { "address": 512, "size": 1, "area": "RAM", "access": "RW", "initial": 0, "range": [0, 1] },
+    "Goal Position": { "address": 564, "size": 4, "signed": true, "area": "RAM", "access": "RW", "unit": "pulse" },
+    "Present Position": { "address": 580, "size": 4, "signed": true, "area": "RAM", "access": "R", "unit": "pulse" }
+  },
+  "models": {
+    "PH54-200-S500-R": {
+      "number": 2020, "series": "P", "resolution": 1003846, "manual": "https://example.org/",
+      "registers": {
+        "Firmware Version": { "address": 6, "size": 1, "area": "EEPROM", "access": "R" },
+        "ID": { "address": 7, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 252] },
+        "Baud Rate": { "address": 8, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 3] },
+        "Operating Mode": { "address": 11, "size": 1, "area": "EEPROM", "access": "RW", "initial": 3,
+          "values": { "0": "Current", "1": "Velocity", "3": "Position", "4": "Extended position", "16": "PWM" } },
+        "Max Voltage Limit": { "address": 32, "size": 2, "area": "EEPROM", "access": "RW", "initial": 350,
+          "unit": "V", "scale": 0.1 },
+        "Min Voltage Limit": { "address": 34, "size": 2, "area": "EEPROM", "access": "RW", "initial": 150,
+          "unit": "V", "scale": 0.1 },
+        "PWM Limit": { "address": 36, "size": 2, "area": "EEPROM", "access": "RW", "initial": 2009,
+          "range": [0, 2009], "unit": "%", "scale": 0.0498 },
+        "Current Limit": { "address": 38, "size": 2, "area": "EEPROM", "access": "RW", "initial": 22740,
+          "range": [0, 22740], "unit": "mA" },
+        "Velocity Limit": { "address": 44, "size": 4, "area": "EEPROM", "access": "RW", "initial": 2900,
+          "unit": "rev/min", "scale": 0.01 },
+        "Max Position Limit": { "address": 48, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": 501433, "unit": "pulse" },
+        "Min Position Limit": { "address": 52, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": -501433, "unit": "pulse" },
+        "Shutdown": { "address": 63, "size": 1, "area": "EEPROM", "access": "RW", "initial": 58 },
+        "LED Red": { "address": 513, "size": 1, "area": "RAM", "access": "RW", "initial": 0 },
+        "Hardware Error Status": { "address": 518, "size": 1, "area": "RAM", "access": "R", "initial": 0,
+          "bits": { "Input voltage": { "bit": 0 }, "Motor hall sensor": { "bit": 1 }, "Overheating": { "bit": 2 },
+                    "Motor encoder": { "bit": 3 }, "Electrical shock": { "bit": 4 }, "Overload": { "bit": 5 } } },
+        "Velocity I Gain": { "address": 524, "size": 2, "area": "RAM", "access": "RW", "initial": 2209 },
+        "Velocity P Gain": { "address": 526, "size": 2, "area": "RAM", "access": "RW", "initial": 6153 },
+        "Position P Gain": { "address": 532, "size": 2, "area": "RAM", "access": "RW", "initial": 314 },
+        "Goal PWM": { "address": 548, "size": 2, "signed": true, "area": "RAM", "access": "RW",
+          "range": ["-PWM Limit", "PWM Limit"], "unit": "%", "scale": 0.0498 },
+        "Goal Velocity": { "address": 552, "size": 4, "signed": true, "area": "RAM", "access": "RW",
+          "range": ["-Velocity Limit", "Velocity Limit"], "unit": "rev/min", "scale": 0.01 },
+        "Profile Acceleration": { "address": 556, "size": 4, "area": "RAM", "access": "RW", "initial": 0,
+          "unit": "rev/min2" },
+        "Profile Velocity": { "address": 560, "size": 4, "area": "RAM", "access": "RW", "initial": 0,
+          "unit": "rev/min", "scale": 0.01 },
+        "Moving": { "address": 570, "size": 1, "area": "RAM", "access": "R", "initial": 0 },
+        "Present Current": { "address": 574, "size": 2, "signed": true, "area": "RAM", "access": "R", "unit": "mA" },
+        "Present Velocity": { "address": 576, "size": 4, "signed": true, "area": "RAM", "access": "R",
+          "unit": "rev/min", "scale": 0.01 },
+        "Present Input Voltage": { "address": 592, "size": 2, "area": "RAM", "access": "R", "unit": "V",
+          "scale": 0.1 }
+      }
+    },
+    "H42-20-S300-R": {
+      "number": 51200, "series": "PRO", "resolution": 303750, "manual": "https://example.org/",
+      "registers": {
+        "Firmware Version": { "address": 6, "size": 1, "area": "EEPROM", "access": "R" },
+        "ID": { "address": 7, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 252] },
+        "Baud Rate": { "address": 8, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 3] },
+        "Operating Mode": { "address": 11, "size": 1, "area": "EEPROM", "access": "RW", "initial": 3,
+          "values": { "0": "Torque", "1": "Velocity", "3": "Position", "4": "Extended position" } },
+        "Torque Limit": { "address": 30, "size": 2, "area": "EEPROM", "access": "RW", "initial": 465, "unit": "mA",
+          "scale": 4.02832 },
+        "Velocity Limit": { "address": 32, "size": 4, "area": "EEPROM", "access": "RW", "initial": 10300,
+          "unit": "rev/min", "scale": 0.00329218 },
+        "Max Position Limit": { "address": 36, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": 151875, "unit": "pulse" },
+        "Min Position Limit": { "address": 40, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": -151875, "unit": "pulse" },
+        "Velocity I Gain": { "address": 586, "size": 2, "area": "RAM", "access": "RW", "initial": 40 },
+        "Velocity P Gain": { "address": 588, "size": 2, "area": "RAM", "access": "RW", "initial": 440 },
+        "Position P Gain": { "address": 594, "size": 2, "area": "RAM", "access": "RW", "initial": 32 },
+        "Goal Velocity": { "address": 600, "size": 4, "signed": true, "area": "RAM", "access": "RW", "initial": 0,
+          "range": ["-Velocity Limit", "Velocity Limit"], "unit": "rev/min", "scale": 0.00329218 },
+        "Goal Torque": { "address": 604, "size": 2, "signed": true, "area": "RAM", "access": "RW", "initial": 0,
+          "range": ["-Torque Limit", "Torque Limit"], "unit": "mA", "scale": 4.02832 },
+        "Present Velocity": { "address": 615, "size": 4, "signed": true, "area": "RAM", "access": "R",
+          "unit": "rev/min", "scale": 0.00329218 },
+        "Present Current": { "address": 621, "size": 2, "signed": true, "area": "RAM", "access": "R", "unit": "mA",
+          "scale": 4.02832 }
+      }
+    },
+    "XL-320": {
+      "number": 350, "series": "XL", "resolution": 1229, "manual": "https://example.org/",
+      "registers": {
+        "Firmware Version": { "address": 2, "size": 1, "area": "EEPROM", "access": "R" },
+        "ID": { "address": 3, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 252] },
+        "Baud Rate": { "address": 4, "size": 1, "area": "EEPROM", "access": "RW", "initial": 3, "range": [0, 3] },
+        "CW Angle Limit": { "address": 6, "size": 2, "area": "EEPROM", "access": "RW", "initial": 0,
+          "range": [0, 1023] },
+        "CCW Angle Limit": { "address": 8, "size": 2, "area": "EEPROM", "access": "RW", "initial": 1023,
+          "range": [0, 1023] },
+        "Control Mode": { "address": 11, "size": 1, "area": "EEPROM", "access": "RW", "initial": 2,
+          "values": { "1": "Wheel", "2": "Joint" } },
+        "Min Voltage Limit": { "address": 13, "size": 1, "area": "EEPROM", "access": "RW", "initial": 60, "unit": "V",
+          "scale": 0.1 },
+        "Max Voltage Limit": { "address": 14, "size": 1, "area": "EEPROM", "access": "RW", "initial": 90, "unit": "V",
+          "scale": 0.1 },
+        "Max Torque": { "address": 15, "size": 2, "area": "EEPROM", "access": "RW", "initial": 1023,
+          "range": [0, 1023],
+          "unit": "%", "scale": 0.1 },
+        "Shutdown": { "address": 18, "size": 1, "area": "EEPROM", "access": "RW", "initial": 3 },
+        "Torque Enable": { "address": 24 },
+        "LED": { "address": 25, "size": 1, "area": "RAM", "access": "RW", "initial": 0 },
+        "D Gain": { "address": 27, "size": 1, "area": "RAM", "access": "RW", "initial": 0 },
+        "I Gain": { "address": 28, "size": 1, "area": "RAM", "access": "RW", "initial": 0 },
+        "P Gain": { "address": 29, "size": 1, "area": "RAM", "access": "RW", "initial": 32 },
+        "Goal Position": { "address": 30, "size": 2, "signed": false, "range": [0, 1023] },
+        "Moving Speed": { "address": 32, "size": 2, "area": "RAM", "access": "RW", "range": [0, 2047],
+          "unit": "rev/min",
+          "scale": 0.111 },
+        "Torque Limit": { "address": 35, "size": 2, "area": "RAM", "access": "RW", "range": [0, 1023], "unit": "%",
+          "scale": 0.1 },
+        "Present Position": { "address": 37, "size": 2, "signed": false },
+        "Present Speed": { "address": 39, "size": 2, "area": "RAM", "access": "R", "unit": "rev/min",
+          "scale": 0.111 },
+        "Present Load": { "address": 41, "size": 2, "area": "RAM", "access": "R", "unit": "%", "scale": 0.1 },
+        "Present Voltage": { "address": 45, "size": 1, "area": "RAM", "access": "R", "unit": "V", "scale": 0.1 },
+        "Present Temperature": { "address": 46, "size": 1, "area": "RAM", "access": "R", "unit": "degC" },
+        "Hardware Error Status": { "address": 50, "size": 1, "area": "RAM", "access": "R", "initial": 0,
+          "bits": { "Overload": { "bit": 0 }, "Overheating": { "bit": 1 }, "Input voltage": { "bit": 2 } } }
+      }
+    },
+    "YM070-210-R051-RH": {
+      "number": 4020, "series": "Y", "resolution": 524288, "manual": "https://example.org/",
+      "registers": {
+        "Firmware Version": { "address": 6, "size": 1, "area": "EEPROM", "access": "R" },
+        "ID": { "address": 7, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 252] },
+        "Baud Rate": { "address": 12, "size": 1, "area": "EEPROM", "access": "RW", "initial": 1, "range": [0, 3] },
+        "Drive Mode": { "address": 32, "size": 1, "area": "EEPROM", "access": "RW", "initial": 0, "range": "bits",
+          "bits": { "Reverse direction": { "bit": 0 }, "Time-based profile": { "bit": 2 },
+            "Dynamic brake": { "bit": 6 } } },
+        "Operating Mode": { "address": 33, "size": 1, "area": "EEPROM", "access": "RW", "initial": 3,
+          "values": { "0": "Current", "1": "Velocity", "3": "Position" } },
+        "In-Position Threshold": { "address": 40, "size": 4, "area": "EEPROM", "access": "RW", "initial": 1900,
+          "unit": "pulse" },
+        "Max Voltage Limit": { "address": 60, "size": 2, "area": "EEPROM", "access": "RW", "initial": 320,
+          "unit": "V", "scale": 0.1 },
+        "Min Voltage Limit": { "address": 62, "size": 2, "area": "EEPROM", "access": "RW", "initial": 160,
+          "unit": "V", "scale": 0.1 },
+        "Current Limit": { "address": 66, "size": 2, "area": "EEPROM", "access": "RW", "initial": 2080, "unit": "mA",
+          "scale": 10 },
+        "Velocity Limit": { "address": 72, "size": 4, "area": "EEPROM", "access": "RW", "initial": 3921,
+          "unit": "rev/min", "scale": 0.01 },
+        "Max Position Limit": { "address": 76, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": 262144, "unit": "pulse" },
+        "Min Position Limit": { "address": 84, "size": 4, "signed": true, "area": "EEPROM", "access": "RW",
+          "initial": -262144, "unit": "pulse" },
+        "Error Code": { "address": 153, "size": 1, "area": "RAM", "access": "R", "initial": 0 },
+        "Hybrid Save": { "address": 170, "size": 1, "area": "RAM", "access": "RW", "initial": 0, "range": [0, 2] },
+        "Velocity I Gain": { "address": 212, "size": 4, "area": "HYBRID", "access": "RW", "initial": 2585331 },
+        "Velocity P Gain": { "address": 216, "size": 4, "area": "HYBRID", "access": "RW", "initial": 26184 },
+        "Position P Gain": { "address": 232, "size": 4, "area": "HYBRID", "access": "RW", "initial": 6283185 },
+        "Profile Acceleration": { "address": 240, "size": 4, "area": "HYBRID", "access": "RW", "initial": 313,
+          "unit": "rev/min2", "scale": 10 },
+        "Profile Velocity": { "address": 244, "size": 4, "area": "HYBRID", "access": "RW", "initial": 3921,
+          "unit": "rev/min", "scale": 0.01 },
+        "Profile Acceleration Time": { "address": 248, "size": 4, "area": "HYBRID", "access": "RW", "initial": 400,
+          "unit": "ms", "scale": 0.2 },
+        "Profile Time": { "address": 252, "size": 4, "area": "HYBRID", "access": "RW", "initial": 800, "unit": "ms",
+          "scale": 0.2 },
+        "Goal Velocity": { "address": 528, "size": 4, "signed": true, "area": "RAM", "access": "RW", "initial": 0,
+          "range": ["-Velocity Limit", "Velocity Limit"], "unit": "rev/min", "scale": 0.01 },
+        "Goal Position": { "address": 532 },
+        "Moving Status": { "address": 541, "size": 1, "area": "RAM", "access": "R" },
+        "Present Velocity": { "address": 548, "size": 4, "signed": true, "area": "RAM", "access": "R",
+          "unit": "rev/min", "scale": 0.01 },
+        "Present Position": { "address": 552 },
+        "Present Input Voltage": { "address": 568, "size": 2, "area": "RAM", "access": "R", "unit": "V",
+          "scale": 0.01 },
+        "Present Motor Temperature": { "address": 571, "size": 1, "area": "RAM", "access": "R", "unit": "degC" }
+      }
+    }
+  }
+})json";
+    return json.replace("\"size\":", "\"help\": \"-\", \"size\":"); // each register needs one
+}
+
+} // namespace dynascope::test
