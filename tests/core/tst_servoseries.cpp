@@ -225,6 +225,28 @@ private slots:
         m_bench.ask(request, answer);
     }
 
+    void fastReadsByFirmware_data()
+    {
+        QTest::addColumn<QString>("model");
+        QTest::addColumn<int>("firmware");
+        QTest::addColumn<bool>("answered"); // otherwise silence
+        QTest::newRow("X430 from 45") << "XM430-W350" << 45 << true;
+        QTest::newRow("X430 before") << "XM430-W350" << 44 << false;
+        QTest::newRow("X330 from 46") << "XL330-M288" << 46 << true;
+        QTest::newRow("X330 before") << "XL330-M288" << 45 << false;
+        QTest::newRow("a table that states none") << "PH54-200-S500-R" << 45 << false;
+    }
+
+    void fastReadsByFirmware()
+    {
+        QFETCH(QString, model);
+        QFETCH(int, firmware);
+        QFETCH(bool, answered);
+        m_bench.start(model, firmware);
+        for (const char *request : {"FE 8A 07 00 01 00 01", "FE 9A 01 07 00 01 00"})
+            QCOMPARE(!m_bench.client().exchange(QString::fromLatin1(request)).empty(), answered);
+    }
+
     /// Whatever the catalog knows boots, holds a position and survives every value of every register.
     void everyModelOfTheCatalog()
     {

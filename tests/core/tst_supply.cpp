@@ -150,6 +150,24 @@ private slots:
             QCOMPARE(ends[i], ends[0]);
     }
 
+    /// Idle servos, torque on or off, cost nothing: none of their steps is reckoned.
+    void idleServosRest()
+    {
+        for (int id = 2; id <= 6; ++id)
+            m_bench.add(id % 2 ? QStringLiteral("XL330-M288") : QStringLiteral("XL430-W250"), -1, 57600, id);
+        for (int i = 0; i < 6; ++i) {
+            m_bench.servo(i).joint().setGravityArm(0.05);
+            if (i < 4)
+                m_bench.write(u"Torque Enable", 1, i);
+        }
+        m_bench.wait(5s);
+        for (int t = 0; t < 20; ++t) {
+            m_bench.wait(500ms);
+            for (int i = 0; i < 6; ++i)
+                QVERIFY2(m_bench.servo(i).joint().isResting(), qPrintable(QString::number(i)));
+        }
+    }
+
     void theMainSwitch()
     {
         m_bench.add(QStringLiteral("XM430-W350"), -1, 57600, 2);
