@@ -44,7 +44,8 @@ StopPlan planFor(const std::vector<Joint> &joints)
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const Joint &joint = joints[i];
         if (joint.torqueAddress)
-            targets.push_back({static_cast<quint32>(i), joint.found.id, joint.found.baudRate, *joint.torqueAddress});
+            targets.push_back({static_cast<quint32>(i), joint.found.id, joint.found.baudRate, *joint.torqueAddress,
+                               joint.found.modelNumber});
     }
     return StopPlan(std::move(targets));
 }
@@ -138,7 +139,7 @@ ExitCode worse(ExitCode one, ExitCode other)
 ExitCode verify(const Work &work, const Stopping &stopping)
 {
     const int baudRate = work.bus.line().baudRate();
-    std::vector<StopOutcome> outcomes = verifyTorqueOff(work.bus, planFor(stopping.joints), baudRate, baudRate);
+    std::vector<StopOutcome> outcomes = verifyTorqueOff(work.bus, planFor(stopping.joints), baudRate);
     ExitCode code = ExitCode::Done;
     for (std::size_t i = 0; i < stopping.joints.size(); ++i) {
         const Joint &joint = stopping.joints[i];

@@ -17,7 +17,6 @@ namespace dynascope {
 
 namespace {
 
-constexpr double BitsPerByte = 10; ///< with start and stop bit
 
 } // namespace
 
@@ -36,7 +35,7 @@ StatusView::StatusView(QWidget *parent)
     m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 of 0000 Hz"),
                        tr("Poll cycles a second of what is plotted, over the last second, of those that the wire allows at "
                           "this baud rate with these Return Delay Times"));
-    m_loadText = addFigure(QStringLiteral("statusLoad"), tr("Bus load"), QStringLiteral("100 %"),
+    m_load = addFigure(QStringLiteral("statusLoad"), tr("Bus load"), QStringLiteral("100 %"),
                        tr("Part of the last second in which the wire carried bytes. The rest is waiting: for answers, for the "
                           "adapter, for this computer."));
     m_errors = addFigure(QStringLiteral("statusErrors"), tr("Errors"), QStringLiteral("000000"), QString());
@@ -67,42 +66,15 @@ void StatusView::setLine(LineSession *line)
     if (m_line && m_line != line)
         m_line->disconnect(this);
     if (line && m_line != line) {
-        connect(line, &LineSession::rateChanged, this, [this] {
-            measure();
-            update();
-        });
+        connect(line, &LineSession::rateChanged, this, &StatusView::update);
         connect(line, &LineSession::stateChanged, this, &StatusView::update);
         connect(line, &LineSession::deviceAdded, this, &StatusView::countDevices);
         connect(line, &LineSession::deviceChanged, this, &StatusView::countDevices);
         connect(line, &LineSession::deviceLocated, this, &StatusView::countDevices);
         connect(line, &LineSession::deviceAboutToBeRemoved, this, &StatusView::countDevices, Qt::QueuedConnection);
     }
-    if (m_line != line) {
-        m_line = line;
-        m_sinceMeasured.invalidate();
-        m_load.reset();
-    }
+    m_line = line;
     update();
-}
-
-void StatusView::measure()
-{
-    if (!m_line)
-        return;
-    const BusStatistics seen = m_line->bus().statistics();
-    const quint64 bytes = seen.bytesSent + seen.bytesReceived;
-    const bool isFirst = !m_sinceMeasured.isValid() || bytes < m_bytes; // or a new connection
-    const double seconds = isFirst ? 0 : static_cast<double>(m_sinceMeasured.restart()) / 1000;
-    if (isFirst)
-        m_sinceMeasured.start();
-    // Nobody here knows at which rate a server works.
-    const bool isKnown = seconds > 0 && m_line->baudRate() > 0 && !isRateTheServers(m_line->name());
-    m_load.reset();
-    if (isKnown) {
-        const double wire = static_cast<double>(bytes - m_bytes) * BitsPerByte / m_line->baudRate();
-        m_load = std::min(1.0, wire / seconds);
-    }
-    m_bytes = bytes;
 }
 
 void StatusView::countDevices()
@@ -135,7 +107,8 @@ void StatusView::update()
         m_rate->setText(tr("%1 of %2 Hz").arg(qRound(m_line->cycleRate())).arg(qRound(m_line->possibleRate())));
     else
         m_rate->setText(polls ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
-    m_loadText->setText(open && m_load ? tr("%1 %").arg(qRound(*m_load * 100)) : none);
+    const bool isKnown = open && !isRateTheServers(m_line->name()); // nobody here knows at which rate a server works
+    m_load->setText(isKnown ? tr("%1 %").arg(qRound(m_line->busLoad() * 100)) : none);
     updateErrors();
     countDevices();
 }

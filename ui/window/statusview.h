@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QElapsedTimer>
 #include <QPointer>
 #include <QWidget>
 
-#include <optional>
 
 class QLabel;
 
@@ -31,17 +29,13 @@ private:
     QLabel *addFigure(const QString &name, const QString &caption, const QString &widest, const QString &tip);
     void update();
     void countDevices();
-    void measure(); ///< how much of the time since the last call the wire carried bytes
     void updateErrors();
 
     QPointer<LineSession> m_line;
-    QElapsedTimer m_sinceMeasured;
-    quint64 m_bytes = 0; ///< then
-    std::optional<double> m_load;
     ElidedLabel *m_name;
     QLabel *m_devices;
     QLabel *m_rate;
-    QLabel *m_loadText;
+    QLabel *m_load;
     QLabel *m_errors = nullptr;
 };
 
