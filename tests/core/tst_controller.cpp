@@ -24,7 +24,7 @@ class TestController : public QObject
 {
     Q_OBJECT
 
-    static Controller made() { return Controller(genericMotor(), PulsesPerTurn); }
+    static Controller made() { return Controller(genericMotor()); }
 
 private slots:
     void positionIsProportional_data()
@@ -50,7 +50,7 @@ private slots:
         feedback.position = 1000;
         feedback.wanted.position = 1000 + error;
         Controller controller = made();
-        QTEST(controller.pwm(settings, feedback), "pwm");
+        QTEST(controller.pwm(settings, {}, feedback), "pwm");
     }
 
     void theSumGrowsAndIsForgotten()
@@ -61,15 +61,15 @@ private slots:
         Feedback feedback;
         feedback.wanted.position = 2;
         Controller controller = made();
-        QCOMPARE(controller.pwm(settings, feedback), 2.0);
-        QCOMPARE(controller.pwm(settings, feedback), 4.0);
+        QCOMPARE(controller.pwm(settings, {}, feedback), 2.0);
+        QCOMPARE(controller.pwm(settings, {}, feedback), 4.0);
         QVERIFY(!(controller == made()));
         controller.reset();
         QVERIFY(controller == made());
         for (int i = 0; i < 10'000; ++i)
-            QVERIFY(controller.pwm(settings, feedback) <= Controller::fullPwm);
+            QVERIFY(controller.pwm(settings, {}, feedback) <= settings.fullPwm);
         feedback.wanted.position = -2; // it did not wind up beyond its bound
-        QVERIFY(controller.pwm(settings, feedback) < Controller::fullPwm);
+        QVERIFY(controller.pwm(settings, {}, feedback) < settings.fullPwm);
     }
 
     void speedDampsAndFeedForwardHelps()
@@ -79,11 +79,11 @@ private slots:
         settings.positionD = 160; // ten PWM a pulse/ms
         Feedback feedback;
         feedback.velocity = 3;
-        QCOMPARE(made().pwm(settings, feedback), -30.0);
+        QCOMPARE(made().pwm(settings, {}, feedback), -30.0);
         feedback.wanted.velocity = 3;
-        QCOMPARE(made().pwm(settings, feedback), 0.0);
+        QCOMPARE(made().pwm(settings, {}, feedback), 0.0);
         settings.feedforward1 = 40; // ten again
-        QCOMPARE(made().pwm(settings, feedback), 30.0);
+        QCOMPARE(made().pwm(settings, {}, feedback), 30.0);
     }
 
     void velocityByItsError()
@@ -91,9 +91,9 @@ private slots:
         const JointSettings settings = mode(1); // P 100 / 128 a register unit of 0.229 rev/min
         Feedback feedback;
         feedback.wanted.velocity = 128 * settings.velocityUnit * PulsesPerTurn / 60'000;
-        QVERIFY(std::abs(made().pwm(settings, feedback) - 100) < 1e-6);
+        QVERIFY(std::abs(made().pwm(settings, {}, feedback) - 100) < 1e-6);
         feedback.velocity = feedback.wanted.velocity;
-        QVERIFY(std::abs(made().pwm(settings, feedback)) < 1e-6);
+        QVERIFY(std::abs(made().pwm(settings, {}, feedback)) < 1e-6);
     }
 
     void pwmModeIsTheOrderItself_data()
@@ -114,7 +114,7 @@ private slots:
         JointSettings settings = mode(16);
         settings.goalPwm = goal;
         settings.pwmLimit = limit;
-        QTEST(made().pwm(settings, {}), "pwm");
+        QTEST(made().pwm(settings, {}, {}), "pwm");
     }
 
     /// In every mode; no more than the limit, whatever the goal.
@@ -125,12 +125,11 @@ private slots:
             settings.goalPwm = 50;
             Feedback feedback;
             feedback.wanted.position = feedback.wanted.velocity = 1e6;
-            const double pwm = made().pwm(settings, feedback);
+            const double pwm = made().pwm(settings, {}, feedback);
             QVERIFY2(pwm > 0 && pwm <= 50, qPrintable(QStringLiteral("mode %1: %2").arg(operatingMode).arg(pwm)));
             settings.goalPwm = 5000;
             settings.pwmLimit = 80;
-            QCOMPARE(Controller::pwmBound(settings), 80.0);
-            QVERIFY(made().pwm(settings, feedback) <= 80);
+            QVERIFY(made().pwm(settings, {}, feedback) <= 80);
         }
     }
 
@@ -140,7 +139,7 @@ private slots:
         const auto pwm = [](int goalCurrent) {
             JointSettings settings = mode(0);
             settings.goalCurrent = goalCurrent;
-            return made().pwm(settings, {});
+            return made().pwm(settings, {}, {});
         };
         QCOMPARE(pwm(0), 0.0);
         QVERIFY(pwm(100) > 0 && pwm(200) > pwm(100));
@@ -148,7 +147,7 @@ private slots:
         JointSettings limited = mode(0);
         limited.currentLimit = 100;
         limited.goalCurrent = 1000;
-        QCOMPARE(made().pwm(limited, {}), pwm(100));
+        QCOMPARE(made().pwm(limited, {}, {}), pwm(100));
     }
 };
 

@@ -21,7 +21,7 @@ Traits traits(std::uint8_t id, std::chrono::microseconds delay = 0us)
 /// Device 1 alone: four bytes at 132.
 PollPlan oneRead(std::chrono::microseconds delay = 0us)
 {
-    return {{{1, {1, 132, 4}, 0ms}}, {traits(1, delay)}};
+    return {AnyRate, {{1, {1, 132, 4}, 0ms}}, {traits(1, delay)}, {}};
 }
 
 bool isNear(double value, double wanted)

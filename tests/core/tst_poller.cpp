@@ -233,7 +233,7 @@ private slots:
             std::vector<Traits> devices{traits(1, true), traits(2, true), traits(3, true)};
             for (Traits &device : devices)
                 device.firmware = firmware;
-            world.poller.setPlan({{span(1), span(2), span(3)}, devices});
+            world.poller.setPlan({AnyRate, {span(1), span(2), span(3)}, devices, {}});
         };
         const auto fastReads = [&] {
             const int before = world.sentOf(Instruction::FastSyncRead);

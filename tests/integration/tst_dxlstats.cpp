@@ -146,8 +146,7 @@ private slots:
     {
         const Outcome outcome = stats({u"--seconds"_s, u"0.5"_s, u"--json"_s, u"--ids"_s, u"9,1-2"_s});
         QCOMPARE(outcome.code, 1);
-        QCOMPARE(outcome.err, u"dxl: ID 9 never answered at 1000000 bps; devices 1, 2 on this line answer
-"_s);
+        QCOMPARE(outcome.err, u"dxl: ID 9 never answered at 1000000 bps; devices 1, 2 on this line answer\n"_s);
         const QJsonObject report = object(outcome);
         QCOMPARE(report[u"devices"].toArray().size(), 3); // 3 was not asked for
         QCOMPARE(device(report, 9)[u"good"].toInt(), 0);

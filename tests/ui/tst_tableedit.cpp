@@ -107,7 +107,7 @@ private slots:
         TableFixture fixture;
         TableWindow window(fixture);
         window.panel.setDevices({fixture.add(3)});
-        QSignalSpy message(&window.panel, &TablePanel::message);
+        QSignalSpy message(&window.panel, &TablePanel::notWritten);
         window.go(QStringLiteral("Goal Position"));
         QTest::keyClick(window.view, Qt::Key_F2);
         QTest::keyClicks(window.edit(), QStringLiteral("99999"));

@@ -4,7 +4,6 @@
 #include <QPointer>
 #include <QWidget>
 
-
 class QLabel;
 
 namespace dynascope {
