@@ -379,7 +379,7 @@ private slots:
             const auto found = scanBaud(context.bus(), {0, 60, true}, hooks);
             return found ? Result<int>(static_cast<int>(found->devices.size())) : tl::unexpected(found.error());
         });
-        isUnderWay.acquire();
+        QVERIFY(isUnderWay.tryAcquire(1, 10'000));
         world.run(Priority::Click, [](JobContext &context) -> Result<int> {
             const Result<void> written = write(context.bus(), {2, 65, {1}});
             return written ? Result<int>(100) : tl::unexpected(written.error());

@@ -80,7 +80,7 @@ private slots:
         QSignalSpy finished(&scanner, &Scanner::finished);
         QSignalSpy progress(&scanner, &Scanner::progressChanged);
         scanner.start(*world.line, {{57600}, 0, 252, true});
-        isUnderWay.acquire();
+        QVERIFY(isUnderWay.tryAcquire(1, 10'000));
         Device &device = *world.line->deviceAt(2, 57600);
         std::optional<Result<void>> outcome;
         world.commands.writeField(device, device.table().indexOf(u"LED"), 1,
