@@ -80,7 +80,9 @@ QString Device::lockReason(int fieldIndex) const
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
     if (!field.isWritable())
         return tr("%1 is read-only.").arg(field.name);
-    if (m_line && m_line->state() != BusThread::State::Open)
+    const bool isGone = m_line
+        && (m_line->state() == BusThread::State::Lost || m_line->state() == BusThread::State::Closed);
+    if (isGone) // while it opens an order waits
         return tr("%1 is not connected.").arg(displayName());
     if (m_state == State::Rebooting)
         return tr("%1 is rebooting.").arg(displayName());

@@ -87,7 +87,7 @@ private slots:
                                   [&](const Result<void> &result) { outcome = result; });
         isQueued.release();
         QTRY_VERIFY(outcome);
-        QVERIFY(*outcome);
+        QVERIFY2(*outcome, qPrintable(outcome->error().text));
         QTRY_COMPARE(finished.count(), 1);
         world.close();
         const auto written = std::ranges::find(instructions, std::uint8_t(0x03));
