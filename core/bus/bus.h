@@ -26,8 +26,7 @@ public:
     Bus &operator=(const Bus &) = delete;
 
     Line &line() { return m_channel.line(); }
-
-    /// `traits` of the devices concerned, each for its baud rate; those not listed are taken for factory-fresh.
+    /// Of the devices concerned, each for its baud rate; those not listed are taken for factory-fresh.
     void setTraits(const std::vector<Traits> &traits);
     void addTraits(const Traits &device); ///< of one more, or anew; the others stay
     Traits traits(std::uint8_t id) const;

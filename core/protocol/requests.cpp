@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace dynascope {
 namespace {
@@ -31,8 +32,9 @@ Request keyedRequest(std::uint8_t id, Instruction instruction, std::uint8_t opti
 Bytes addressAndData(const SpanData &write)
 {
     Bytes parameters;
+    parameters.reserve(2 + write.data.size());
     appendLittleEndian(parameters, write.address, 2);
-    parameters.insert(parameters.end(), write.data.begin(), write.data.end());
+    std::ranges::copy(write.data, std::back_inserter(parameters)); // gcc 12 is wrong about insert() here
     return parameters;
 }
 
