@@ -92,7 +92,8 @@ EffectiveField Device::units(const Field &field)
         const bool decides = std::any_of(field.alternates.begin(), field.alternates.end(), [&](const Alternate &alternate) {
             return normalizedName(alternate.reg) == normalizedName(name);
         });
-        return decides ? lookUp(name) : std::nullopt;
+        const bool gears = name == field.gearRatio.numerator || name == field.gearRatio.denominator;
+        return decides || gears ? lookUp(name) : std::nullopt;
     });
 }
 

@@ -78,6 +78,8 @@ bool Device::goalTurnsTorqueOn() const
 QString Device::lockReason(int fieldIndex) const
 {
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
+    if (field.mayBeTried())
+        return tr("Whether %1 may be written is not known.").arg(field.name);
     if (!field.isWritable())
         return tr("%1 is read-only.").arg(field.name);
     const bool isGone = m_line

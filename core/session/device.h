@@ -50,8 +50,8 @@ public:
     DeviceKey key() const { return m_key; }
     LineSession *line() const { return m_line; }
     const Found &found() const { return m_found; }
-    const ControlTable &table() const { return *m_table; } ///< of an unknown model: one without fields
-    bool isKnownModel() const { return !m_table->fields().empty(); }
+    const ControlTable &table() const { return *m_table; } ///< of an unknown model: bare bytes
+    bool isKnownModel() const { return !m_table->description().isRaw; }
     QString model() const { return m_table->model(); }
     std::uint8_t id() const { return m_found.id; }
     int baudRate() const { return m_found.baudRate; }

@@ -21,16 +21,6 @@ LineTime monotonicNow()
     return std::chrono::steady_clock::now().time_since_epoch();
 }
 
-ControlTablePtr tableOf(const Catalog &catalog, const Found &found)
-{
-    if (ControlTablePtr table = catalog.find(found.modelNumber, found.firmware))
-        return table;
-    ControlTable::Description unknown;
-    unknown.modelNumber = found.modelNumber;
-    unknown.model = modelName(catalog, found.modelNumber);
-    return std::make_shared<const ControlTable>(std::move(unknown));
-}
-
 } // namespace
 
 LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate, const Catalog &catalog,
@@ -135,7 +125,8 @@ Device &LineSession::heard(const Found &found)
     if (known) {
         known->setFound(found);
     } else {
-        auto device = std::make_unique<Device>(m_keys.take(name(), found), this, tableOf(m_catalog, found), found);
+        auto table = m_catalog.findOrRaw(found.modelNumber, found.firmware);
+        auto device = std::make_unique<Device>(m_keys.take(name(), found), this, std::move(table), found);
         known = device.get();
         connect(known, &Device::attributesChanged, this, [this, known] { emit deviceChanged(known); });
         const auto before = [](const auto &a, const auto &b) {

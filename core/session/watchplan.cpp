@@ -24,6 +24,12 @@ bool isState(const Field &field)
         || field.name == QLatin1String("Present Input Voltage") || field.name == QLatin1String("Present Temperature");
 }
 
+/// What of the selected device is read all the time. Where nobody knows what a register is, reading waits to be asked.
+bool isLive(const Field &field)
+{
+    return field.area == Area::Ram || field.area == Area::Hybrid;
+}
+
 /// What tells how it answers: read until it is known.
 bool isUnknownManner(const Device &device, const Field &field)
 {
@@ -57,10 +63,10 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
         });
         if (watches.isSelected) {
             addSpans(plan, device, SelectedInterval,
-                     [](const Field &field) { return field.area != Area::Eeprom && !isIndirect(field); });
+                     [](const Field &field) { return isLive(field) && !isIndirect(field); });
         }
         addSpans(plan, device, StateInterval, [&](const Field &field) {
-            const bool isRead = watches.isSelected && field.area != Area::Eeprom;
+            const bool isRead = watches.isSelected && isLive(field);
             return !isRead && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field));
         });
         plan.traits.push_back(device.traits());

@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/table/catalog.h"
 
-#include "core/table/jsonguard.h"
-#include "core/table/tablebuilder.h"
-#include "core/table/tablemerge.h"
+#include "core/table/rawtable.h"
+#include "core/table/tablefile.h"
 
 #include <QDir>
-#include <QFile>
+#include <QResource>
 
 #include <algorithm>
 
 namespace dynascope {
-namespace {
 
-constexpr int FormatVersion = 1;
-constexpr int MostModels = 64; ///< in one file
+struct Catalog::File : TableFile {
+    using TableFile::TableFile;
+};
+
+struct Catalog::Model {
+    Model(ModelInfo modelInfo, const FilePtr &file)
+        : info(std::move(modelInfo))
+        , tables(info.model, file)
+    {
+        names.append(normalizedName(info.model));
+        for (const QString &name : info.alsoCalled)
+            names.append(normalizedName(name));
+    }
+
+    ModelInfo info;
+    QStringList names; ///< all that it is called, normalized
+    ModelTables tables;
+};
+
+namespace {
 
 tl::unexpected<Error> bad(const QString &name, const QString &text)
 {
@@ -30,142 +46,206 @@ QString stem(const QString &name)
     return file;
 }
 
-/// The files of a folder, ordered so that each comes after what it extends.
-Result<std::vector<std::pair<QString, QByteArray>>> readFolder(const QString &path)
+Catalog::ModelInfo infoOf(const TableOutline::Model &model, TableOutline::Facts facts)
 {
-    struct Pending {
-        QString name;
-        QByteArray json;
-        QString extends;
-    };
-    std::vector<Pending> pending;
-    const QStringList names = QDir(path).entryList({QStringLiteral("*.json")}, QDir::Files, QDir::Name);
-    for (const QString &name : names) {
-        QFile file(path + u'/' + name);
-        if (!file.open(QIODevice::ReadOnly))
-            return bad(name, file.errorString());
-        const QByteArray json = file.readAll();
-        const Result<QJsonObject> object = readJsonObject(json, name);
-        if (!object)
-            return tl::unexpected<Error>(object.error());
-        pending.push_back({name, json, object->value(u"extends").toString()});
+    if (model.own.series)
+        facts.series = model.own.series;
+    if (model.own.newestFirmware)
+        facts.newestFirmware = model.own.newestFirmware;
+    if (model.own.modbusNumberOffset)
+        facts.modbusNumberOffset = model.own.modbusNumberOffset;
+    if (model.own.addressesOnly)
+        facts.addressesOnly = model.own.addressesOnly;
+    Catalog::ModelInfo info;
+    info.modelNumber = static_cast<std::uint16_t>(model.number);
+    info.model = model.name;
+    info.alsoCalled = model.alsoCalled;
+    info.series = facts.series.value_or(QString());
+    info.newestFirmware = facts.newestFirmware.value_or(-1);
+    info.addressesOnly = facts.addressesOnly.value_or(false);
+    if (const int offset = facts.modbusNumberOffset.value_or(-1); offset > 0)
+        info.modbusNumber = model.number + offset;
+    return info;
+}
+
+bool hasNumber(const Catalog::ModelInfo &info, int number)
+{
+    return info.modelNumber == number || info.modbusNumber == number;
+}
+
+/// The tables among the program's resources, by name; the bytes stay where they are.
+std::map<QString, QByteArray> builtInFiles()
+{
+    const QString folder = QStringLiteral(":/controltables/");
+    std::map<QString, QByteArray> files;
+    for (const QString &name : QDir(folder).entryList({QStringLiteral("*.json")}, QDir::Files)) {
+        const QResource resource(folder + name);
+        const bool plain = resource.compressionAlgorithm() == QResource::NoCompression;
+        files[stem(name)] =
+            plain ? QByteArray::fromRawData(reinterpret_cast<const char *>(resource.data()), resource.size())
+                  : resource.uncompressedData();
     }
-    std::vector<std::pair<QString, QByteArray>> ordered;
-    QStringList done{QString()};
-    while (!pending.empty()) {
-        auto next =
-            std::find_if(pending.begin(), pending.end(), [&](const Pending &p) { return done.contains(p.extends); });
-        if (next == pending.end())
-            next = pending.begin(); // adding it will say what is missing
-        done.append(stem(next->name));
-        ordered.emplace_back(next->name, next->json);
-        pending.erase(next);
-    }
-    return ordered;
+    return files;
 }
 
 } // namespace
 
 Result<Catalog> Catalog::builtIn()
 {
-    const auto files = readFolder(QStringLiteral(":/controltables"));
-    if (!files)
-        return tl::unexpected<Error>(files.error());
+    const std::map<QString, QByteArray> files = builtInFiles();
+    std::map<QString, TableOutline> waiting;
+    for (const auto &file : files)
+        waiting[file.first] = outlineOf(file.second);
     Catalog catalog;
-    for (const auto &file : *files) {
-        const Result<void> added = catalog.add(file.second, file.first);
-        if (!added)
-            return tl::unexpected<Error>(added.error());
+    // Each comes after what it extends.
+    while (!waiting.empty()) {
+        const auto next = std::find_if(waiting.begin(), waiting.end(), [&](const auto &file) {
+            return file.second.extends.isEmpty() || catalog.m_files.count(file.second.extends) > 0;
+        });
+        if (next == waiting.end())
+            return bad(waiting.begin()->first, QStringLiteral("extends what is not there"));
+        const QString name = next->first;
+        const FilePtr base = next->second.extends.isEmpty() ? nullptr : catalog.m_files[next->second.extends];
+        const auto file = std::make_shared<const File>(name, files.at(name), std::move(next->second), base, true);
+        waiting.erase(next);
+        catalog.m_files[name] = file;
+        for (const TableOutline::Model &model : file->outline().models) {
+            ModelInfo info = infoOf(model, file->shared());
+            info.file = name;
+            info.isBuiltIn = true;
+            const auto entry = std::make_shared<const Model>(std::move(info), file);
+            if (const QString wrong = catalog.insert(entry, -1); !wrong.isEmpty())
+                return bad(name, wrong);
+        }
     }
     return catalog;
 }
 
 Result<void> Catalog::add(const QByteArray &json, const QString &name)
 {
-    const Result<QJsonObject> read = readJsonObject(json, name);
-    if (!read)
-        return tl::unexpected<Error>(read.error());
-    QJsonObject file = *read;
-    if (wholeNumber(file.value(u"format")) != FormatVersion)
-        return bad(name, QStringLiteral("\"format\" must be %1").arg(FormatVersion));
-    QString wrong = wrongKeys(file);
-    if (!wrong.isEmpty())
-        return bad(name, wrong);
+    if (const Result<void> sound = TableFile::check(json, name); !sound)
+        return sound;
     if (m_files.count(stem(name)) > 0)
         return bad(name, QStringLiteral("a file of this name has been read already"));
-
-    QJsonObject base;
-    if (file.contains(u"extends")) {
-        const auto found = m_files.find(file.value(u"extends").toString());
-        if (found == m_files.end())
-            return bad(
-                name, QStringLiteral("extends \"%1\", which is not there").arg(file.value(u"extends").toString()));
-        base = found->second;
+    const TableOutline outline = outlineOf(json);
+    FilePtr base;
+    if (!outline.extends.isEmpty()) {
+        const auto found = m_files.find(outline.extends);
+        if (found != m_files.end())
+            base = found->second;
     }
-    const QJsonObject models = file.value(u"models").toObject();
-    if (models.size() > MostModels)
-        return bad(name, QStringLiteral("more than %1 models").arg(MostModels));
-    for (const char16_t *key : {u"format", u"extends", u"models"})
-        file.remove(QStringView(key));
-    const QJsonObject settings = merged(base, file, &wrong);
-    if (!wrong.isEmpty())
-        return bad(name, wrong);
+    const auto file = std::make_shared<const File>(stem(name), json, outline, base, false);
+    const auto refuse = [&](const TableFault &fault, const QString &model = {}) {
+        return tl::unexpected<Error>(file->error(name, fault, model));
+    };
+    if (!outline.extends.isEmpty() && !base) {
+        return refuse(
+            {QStringLiteral("extends \"%1\", which is not there").arg(outline.extends), {QStringLiteral("extends")}});
+    }
+    if (file->fault().isSet())
+        return refuse(file->fault());
 
     Catalog next = *this;
-    next.m_files.emplace(stem(name), settings);
-    for (auto it = models.begin(); it != models.end() && wrong.isEmpty(); ++it)
-        wrong = next.addModel(it.key(), settings, it->toObject());
-    if (!wrong.isEmpty())
-        return bad(name, wrong);
+    next.m_files.emplace(stem(name), file);
+    for (const TableOutline::Model &model : outline.models) {
+        ModelInfo info = infoOf(model, file->shared());
+        info.file = stem(name);
+        const auto entry = std::make_shared<const Model>(std::move(info), file);
+        if (const TableFault fault = entry->tables.check(); fault.isSet())
+            return refuse(fault, model.name);
+        if (const QString wrong = next.insert(entry, model.replaces); !wrong.isEmpty())
+            return refuse({wrong, {QStringLiteral("number")}}, model.name);
+    }
     *this = std::move(next);
     return {};
 }
 
-QString Catalog::addModel(const QString &name, const QJsonObject &settings, const QJsonObject &changes)
+/// What is wrong with that; empty where nothing is.
+QString Catalog::insert(const ModelPtr &model, int replaces)
 {
-    QString wrong;
-    const QJsonObject all = merged(settings, changes, &wrong);
-    if (!wrong.isEmpty())
-        return name + QStringLiteral(": ") + wrong;
-    TableBuilder builder(name, all);
-    const std::vector<ControlTablePtr> tables = builder.build();
-    if (!builder.wrong().isEmpty())
-        return builder.wrong();
-    const ControlTable::Description &built = builder.description();
-    if (model(name) || model(static_cast<int>(built.modelNumber)))
-        return QStringLiteral("%1: this name or the number %2 is taken").arg(name).arg(built.modelNumber);
-    m_models.push_back({built.modelNumber, built.model, built.series, builder.newestFirmware()});
-    std::sort(m_models.begin(), m_models.end(),
-        [](const ModelInfo &a, const ModelInfo &b) { return a.modelNumber < b.modelNumber; });
-    m_tables.insert(m_tables.end(), tables.begin(), tables.end());
-    std::stable_sort(m_tables.begin(), m_tables.end(),
-        [](const ControlTablePtr &a, const ControlTablePtr &b) { return a->modelNumber() < b->modelNumber(); });
+    const ModelInfo &info = model->info;
+    if (replaces >= 0) {
+        const auto old = std::find_if(m_models.begin(), m_models.end(),
+                                      [&](const ModelPtr &other) { return other->info.modelNumber == replaces; });
+        if (old == m_models.end() || info.modelNumber != replaces) {
+            return QStringLiteral("%1: \"replaces\" must be the number of this model and of one that is there")
+                .arg(info.model);
+        }
+        m_models.erase(old);
+    }
+    for (const ModelPtr &other : m_models) {
+        const bool named = std::any_of(model->names.begin(), model->names.end(),
+            [&](const QString &name) { return other->names.contains(name); });
+        const bool numbered = hasNumber(other->info, info.modelNumber)
+                              || (info.modbusNumber >= 0 && hasNumber(other->info, info.modbusNumber));
+        if (named || numbered) {
+            return QStringLiteral("%1: this name or the number %2 is taken by %3; \"replaces\": %2 takes its place")
+                .arg(info.model)
+                .arg(info.modelNumber)
+                .arg(other->info.model);
+        }
+    }
+    const auto place =
+        std::lower_bound(m_models.begin(), m_models.end(), info.modelNumber,
+                         [](const ModelPtr &other, int number) { return other->info.modelNumber < number; });
+    m_models.insert(place, model);
     return {};
+}
+
+Catalog::ModelPtr Catalog::modelOf(int modelNumber) const
+{
+    const auto found = std::find_if(m_models.begin(), m_models.end(),
+                                    [&](const ModelPtr &model) { return hasNumber(model->info, modelNumber); });
+    return found == m_models.end() ? nullptr : *found;
 }
 
 ControlTablePtr Catalog::find(int modelNumber, int firmware) const
 {
-    ControlTablePtr best;
-    for (const ControlTablePtr &table : m_tables) {
-        if (table->modelNumber() == modelNumber && (!best || table->description().firmwareFrom <= firmware))
-            best = table;
+    const ModelPtr model = modelOf(modelNumber);
+    return model ? model->tables.at(firmware) : nullptr;
+}
+
+ControlTablePtr Catalog::findOrRaw(int modelNumber, int firmware) const
+{
+    if (ControlTablePtr table = find(modelNumber, firmware))
+        return table;
+    // Model numbers were given in rows: between two of one series is likely another of it.
+    const auto above = std::find_if(m_models.begin(), m_models.end(),
+                                    [&](const ModelPtr &model) { return model->info.modelNumber > modelNumber; });
+    ControlTablePtr lower, upper;
+    if (above != m_models.begin() && above != m_models.end() && (*above)->info.series == above[-1]->info.series) {
+        lower = above[-1]->tables.at(NewestFirmware);
+        upper = (*above)->tables.at(NewestFirmware);
     }
-    return best;
+    return rawTable(modelNumber, modelName(*this, modelNumber), lower, upper);
+}
+
+std::vector<int> Catalog::firmwareSteps(int modelNumber) const
+{
+    const ModelPtr model = modelOf(modelNumber);
+    return model ? model->tables.firmwareSteps() : std::vector<int>();
 }
 
 const Catalog::ModelInfo *Catalog::model(QStringView name) const
 {
     const QString wanted = normalizedName(name);
     const auto found = std::find_if(
-        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return normalizedName(info.model) == wanted; });
-    return found == m_models.end() ? nullptr : &*found;
+        m_models.begin(), m_models.end(), [&](const ModelPtr &model) { return model->names.contains(wanted); });
+    return found == m_models.end() ? nullptr : &(*found)->info;
 }
 
 const Catalog::ModelInfo *Catalog::model(int modelNumber) const
 {
-    const auto found = std::find_if(
-        m_models.begin(), m_models.end(), [&](const ModelInfo &info) { return info.modelNumber == modelNumber; });
-    return found == m_models.end() ? nullptr : &*found;
+    const ModelPtr found = modelOf(modelNumber);
+    return found ? &found->info : nullptr;
+}
+
+std::vector<Catalog::ModelInfo> Catalog::models() const
+{
+    std::vector<ModelInfo> all;
+    for (const ModelPtr &model : m_models)
+        all.push_back(model->info);
+    return all;
 }
 
 QString modelName(const Catalog &catalog, int modelNumber)

@@ -36,8 +36,9 @@ ControlTable::ControlTable(Description description) : m_description(std::move(de
         m_size = std::max(m_size, field.end());
     }
     std::sort(m_byName.begin(), m_byName.end());
+    // The program means nothing in a table of bytes without names.
     for (std::size_t i = 0; i < m_known.size(); ++i)
-        m_known[i] = indexOf(KnownNames[i]);
+        m_known[i] = m_description.isRaw ? -1 : indexOf(KnownNames[i]);
 }
 
 int ControlTable::indexOf(QStringView name) const
@@ -103,14 +104,27 @@ bool ControlTable::hasBackup(int firmware) const
     return m_description.backupFrom >= 0 && firmware >= m_description.backupFrom;
 }
 
+bool ControlTable::hasClear(int firmware) const
+{
+    return m_description.clearFrom >= 0 && firmware >= m_description.clearFrom;
+}
+
+bool ControlTable::isNewerThanKnown(int firmware) const
+{
+    return m_description.newestFirmware >= 0 && firmware > m_description.newestFirmware;
+}
+
 QString normalizedName(QStringView name)
 {
-    QString plain;
-    plain.reserve(name.size());
+    QString plain(name.size(), Qt::Uninitialized);
+    qsizetype length = 0;
     for (const QChar c : name) {
-        if (!c.isSpace() && c != u'-' && c != u'_')
-            plain.append(c.toLower());
+        const bool isPlain = c > u' ' && c < u'\x7f'; // all of the manufacturer's, and quicker
+        if (c == u'-' || c == u'_' || (!isPlain && c.isSpace()))
+            continue;
+        plain[length++] = !isPlain ? c.toLower() : c >= u'A' && c <= u'Z' ? QChar(c.unicode() + 32) : c;
     }
+    plain.truncate(length);
     return plain;
 }
 
@@ -139,6 +153,18 @@ bool holds(const Alternate &alternate, const RegisterLookup &lookup)
     return std::find(alternate.values.begin(), alternate.values.end(), masked) != alternate.values.end();
 }
 
+/// Denominator / numerator; the factory's where they aren't known or make no sense.
+double turnsOf(const GearRatio &ratio, const RegisterLookup &lookup)
+{
+    if (!ratio.isSet() || !lookup)
+        return ratio.initialTurns;
+    const std::optional<std::int64_t> numerator = lookup(ratio.numerator);
+    const std::optional<std::int64_t> denominator = lookup(ratio.denominator);
+    if (!numerator || !denominator || *numerator <= 0 || *denominator <= 0)
+        return ratio.initialTurns;
+    return static_cast<double>(*denominator) / static_cast<double>(*numerator);
+}
+
 } // namespace
 
 EffectiveField effective(const Field &field, const RegisterLookup &lookup)
@@ -148,6 +174,9 @@ EffectiveField effective(const Field &field, const RegisterLookup &lookup)
     EffectiveField result;
     result.unit = field.unit;
     result.scale = field.scale;
+    result.directionBit = field.directionBit;
+    result.torqueConstant = field.torqueConstant;
+    result.turns = turnsOf(field.gearRatio, lookup);
     for (const Alternate &alternate : field.alternates) {
         if (!holds(alternate, lookup))
             continue;
@@ -157,6 +186,7 @@ EffectiveField effective(const Field &field, const RegisterLookup &lookup)
             maximum = &alternate.maximum;
         result.unit = alternate.unit;
         result.scale = alternate.scale;
+        result.directionBit = alternate.directionBit;
         break;
     }
     result.minimum = resolved(*minimum, lookup);

@@ -44,17 +44,28 @@ public:
     struct Description {
         std::uint16_t modelNumber = 0;
         QString model;            ///< "XM430-W350"
+        QStringList alsoCalled;   ///< models that have the same number and table
+        int modbusNumber = -1;    ///< what Model Number reads in Modbus mode; −1: the same
         QString series;           ///< "X"
+        bool addressesOnly = false; ///< area, access, limits and meaning of the registers aren't known
+        bool isRaw = false;       ///< of an unknown model: every byte for itself
+        int newestFirmware = -1;  ///< of those whose table is known; −1: none is
         int firmwareFrom = 0;
         int firmwareTo = 255;
-        int resolution = 4096;    ///< pulses per revolution
-        int axes = 1;             ///< 2: two IDs, one baud rate, one lock of the EEPROM
+        /// Pulses per revolution, or where positions are in degrees as many steps as make one; 0 where there are none.
+        /// GearRatio changes what a turn is: EffectiveField::turns.
+        int resolution = 4096;
         std::vector<int> operatingModes;
         std::vector<BaudCode> baudCodes;
         int fastReadsFrom = -1;   ///< first firmware with Fast Sync/Bulk Read; −1: never
         int backupFrom = -1;      ///< first firmware with Control Table Backup; −1: never
-        int receiveBuffer = DefaultReceiveBuffer;
-        QString manualPage;       ///< URL
+        int clearFrom = -1;       ///< first firmware with Clear (multi-turn position); −1: never
+        bool clearsErrors = false; ///< Clear also knows the error (Y series)
+        int resetByBroadcastUntil = -1; ///< last firmware that obeys a broadcast Factory Reset (all); −1: none
+        int axes = 1;             ///< devices in one housing, each with an ID, that share baud rate and EEPROM lock
+        int receiveBuffer = DefaultReceiveBuffer; ///< bytes of the longest packet that the device takes
+        QString doubt;            ///< what is uncertain about the whole table, a sentence; empty: nothing
+        QString manualPage;       ///< URL; empty: none
         std::vector<Field> fields; ///< by address, no overlaps
     };
 
@@ -66,6 +77,7 @@ public:
     int resolution() const { return m_description.resolution; }
     std::span<const Field> fields() const { return m_description.fields; }
     int size() const { return m_size; } ///< one past the last address
+    int axes() const { return m_description.axes; } ///< devices in one housing, each with an ID
     int receiveBuffer() const { return m_description.receiveBuffer; } ///< bytes of the longest packet it takes
 
     /// By the manufacturer's name, ignoring case, spaces, '-' and '_'; −1 where there is none.
@@ -81,6 +93,9 @@ public:
     std::optional<int> baudCode(int rate) const;
     bool hasFastReads(int firmware) const;
     bool hasBackup(int firmware) const;
+    bool hasClear(int firmware) const;
+    /// Is there no table for firmware as new as this? Then the newest is the best guess.
+    bool isNewerThanKnown(int firmware) const;
 
 private:
     Description m_description;
@@ -102,6 +117,9 @@ struct EffectiveField {
     std::optional<std::int64_t> minimum, maximum; ///< nothing: unlimited but for the size
     Unit unit = Unit::None;
     double scale = 1.0;
+    int directionBit = -1;     ///< Field::directionBit
+    double turns = 1.0;        ///< resolution × this is a turn: the gear ratio's denominator / numerator
+    double torqueConstant = 0; ///< Field::torqueConstant
 };
 EffectiveField effective(const Field &field, const RegisterLookup &lookup);
 

@@ -10,22 +10,36 @@
 
 namespace dynascope {
 
-enum class Area { Eeprom, Ram, Hybrid };
-enum class Access { Read, ReadWrite };
+enum class Area {
+    Eeprom,
+    Ram,
+    Hybrid, ///< RAM that the device stores on request (Hybrid Save, Y series)
+    Unknown,
+};
+enum class Access {
+    Read,
+    ReadWrite,
+    Unknown, ///< may be read; a person may try to write it, the program never does by itself
+};
 
 /// What a number in the register measures; decides the editor and the plot axis.
 enum class Unit {
     None,
     Pulse,          ///< of position; 360° / ControlTable::resolution
+    Degree,
     RevPerMin,
     RevPerMin2,
     MilliAmpere,
+    Ampere,
     Percent,
     Volt,
     Celsius,
     Microsecond,
     Millisecond,
     MilliVoltPerMs,
+    Hertz,
+    PulsePerSec,
+    PulsePerMs,
 };
 
 /// A limit: a number, or another register of the same table, perhaps with its sign turned.
@@ -50,6 +64,8 @@ struct BitField {
     int count = 1;
     QString name;
     std::vector<EnumValue> values; ///< what the group's values mean; may be empty for one bit
+
+    std::int64_t mask() const { return ((std::int64_t(1) << count) - 1) << first; }
 };
 
 /// What a field becomes while another register has a value: "ms instead of rev/min while Drive Mode bit 2 is set".
@@ -60,6 +76,15 @@ struct Alternate {
     Bound minimum, maximum;
     Unit unit = Unit::None;
     double scale = 1.0;
+    int directionBit = -1;                ///< as Field::directionBit
+};
+
+/// Registers that say how many turns of the motor make one turn as it is counted.
+struct GearRatio {
+    QString numerator, denominator;
+    double initialTurns = 1; ///< denominator / numerator of a device fresh from the factory
+
+    bool isSet() const { return !numerator.isEmpty(); }
 };
 
 /// One entry of a control table. Immutable once loaded.
@@ -74,14 +99,20 @@ struct Field {
     Bound minimum, maximum;
     Unit unit = Unit::None;
     double scale = 1.0;    ///< physical = raw × scale, in `unit`
+    int directionBit = -1; ///< set: clockwise, which is negative, by what the bits below say; −1: no such bit
+    GearRatio gearRatio;   ///< of a position in pulses, where its model has one
+    double torqueConstant = 0; ///< of a current: Nm for one raw step; 0: not stated
     std::vector<EnumValue> values;  ///< not empty: the only values allowed
     std::vector<EnumValue> special; ///< names of single values among ordinary numbers: "0 is Off"
     std::vector<BitField> bits;
     std::vector<Alternate> alternates;
     QStringList resets;    ///< registers that a write here puts back to other values
     QString help;          ///< one or two sentences
+    QString doubt;         ///< what is uncertain about this entry, a sentence; empty: nothing
+    QString suggested;     ///< of a byte in the table of an unknown model: the register that its neighbours have here
 
     bool isWritable() const { return access == Access::ReadWrite; }
+    bool mayBeTried() const { return access == Access::Unknown; } ///< a person may write it, told what isn't known
     bool needsTorqueOff() const { return area == Area::Eeprom && isWritable(); }
     int end() const { return address + size; }
 };

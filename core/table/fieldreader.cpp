@@ -2,6 +2,7 @@
 #include "core/table/fieldreader.h"
 
 #include "core/table/controltable.h"
+#include "core/table/units.h"
 
 #include <QJsonArray>
 
@@ -13,47 +14,6 @@ namespace {
 
 constexpr int LongestLabel = 80;
 constexpr int LongestHelp = 600;
-
-struct UnitName {
-    const char16_t *name;
-    Unit unit;
-};
-
-constexpr UnitName UnitNames[] = {
-    {u"pulse", Unit::Pulse},
-    {u"rev/min", Unit::RevPerMin},
-    {u"rev/min2", Unit::RevPerMin2},
-    {u"mA", Unit::MilliAmpere},
-    {u"%", Unit::Percent},
-    {u"V", Unit::Volt},
-    {u"degC", Unit::Celsius},
-    {u"us", Unit::Microsecond},
-    {u"ms", Unit::Millisecond},
-    {u"mV/ms", Unit::MilliVoltPerMs},
-};
-
-std::int64_t bitMask(const BitField &bit)
-{
-    return ((std::int64_t(1) << bit.count) - 1) << bit.first;
-}
-
-/// The lowest bit and how many, of {"bit": 2} or {"bits": [4, 5]}.
-std::optional<std::pair<int, int>> bitPlace(const QJsonObject &json, int width)
-{
-    std::optional<std::int64_t> first = wholeNumber(json.value(u"bit"));
-    std::optional<std::int64_t> last = first;
-    const QJsonValue group = json.value(u"bits");
-    if (group.isUndefined() == json.value(u"bit").isUndefined())
-        return std::nullopt;
-    if (!group.isUndefined()) {
-        const QJsonArray both = group.toArray();
-        first = both.size() == 2 ? wholeNumber(both[0]) : std::nullopt;
-        last = both.size() == 2 ? wholeNumber(both[1]) : std::nullopt;
-    }
-    if (!first || !last || *first < 0 || *last < *first || *last >= width)
-        return std::nullopt;
-    return std::pair(static_cast<int>(*first), static_cast<int>(*last - *first + 1));
-}
 
 } // namespace
 
@@ -82,42 +42,67 @@ Field FieldReader::read(const QString &name, const QJsonObject &json)
     readPlace(json);
     if (!m_wrong.isEmpty())
         return m_field; // without a size nothing else makes sense
-    readValues(json.value(u"values"));
-    m_field.special = readNamed(json.value(u"special"), false);
-    readBits(json.value(u"bits").toObject());
-    readRange(json.value(u"range"), m_field.minimum, m_field.maximum);
-    readInitial(json.value(u"initial"));
-    readUnit(json, m_field.unit, m_field.scale);
-    readAlternates(json.value(u"alternates"));
+    if (!m_context.addressesOnly)
+        readMeaning(json);
     readTexts(json);
     return m_field;
+}
+
+void FieldReader::readMeaning(const QJsonObject &json)
+{
+    m_reading = QStringLiteral("values");
+    m_field.values = readNamed(listed(json.value(u"values")), true);
+    m_reading = QStringLiteral("special");
+    m_field.special = readNamed(listed(json.value(u"special")), false);
+    m_reading = QStringLiteral("bits");
+    readBits(json.value(u"bits").toObject());
+    m_reading = QStringLiteral("range");
+    readRange(json.value(u"range"), m_field.minimum, m_field.maximum);
+    m_reading = QStringLiteral("initial");
+    readInitial(json.value(u"initial"));
+    readUnit(json, m_field.unit, m_field.scale);
+    readDirectionBit(json.value(u"directionBit"), m_field.directionBit);
+    readAlternates(json.value(u"alternates"));
+    if (m_field.unit == Unit::Pulse)
+        m_field.gearRatio = m_context.gearRatio;
+    if (m_field.unit == Unit::MilliAmpere || m_field.unit == Unit::Ampere)
+        m_field.torqueConstant = m_context.torqueConstant;
 }
 
 void FieldReader::readPlace(const QJsonObject &json)
 {
     const std::optional<std::int64_t> address = wholeNumber(json.value(u"address"));
     const std::optional<std::int64_t> size = wholeNumber(json.value(u"size"));
-    if (!size || (*size != 1 && *size != 2 && *size != 4))
+    m_reading = QStringLiteral("size");
+    if (size != 1 && size != 2 && size != 4)
         return say(QStringLiteral("\"size\" must be 1, 2 or 4"));
-    if (!address || *address < 0 || *address + *size > 65536)
-        return say(QStringLiteral("\"address\" must be a number from 0 to %1").arg(65536 - *size));
+    m_reading = QStringLiteral("address");
+    if (!address || *address < 0 || *address + *size > 0x10000)
+        return say(QStringLiteral("\"address\" must be a number from 0 to %1").arg(0x10000 - *size));
     m_field.address = static_cast<std::uint16_t>(*address);
     m_field.size = static_cast<std::uint8_t>(*size);
-
+    if (m_context.addressesOnly) {
+        m_field.area = Area::Unknown;
+        m_field.access = Access::Unknown;
+        return;
+    }
     const QJsonValue isSigned = json.value(u"signed");
+    m_reading = QStringLiteral("signed");
     if (!isSigned.isUndefined() && !isSigned.isBool())
         say(QStringLiteral("\"signed\" must be true or false"));
     m_field.isSigned = isSigned.toBool();
-
-    const QString area = json.value(u"area").toString();
-    if (area != u"EEPROM" && area != u"RAM" && area != u"HYBRID")
+    const QString area = json.value(u"area").toString(), access = json.value(u"access").toString();
+    m_reading = QStringLiteral("area");
+    m_field.area = area == u"EEPROM"   ? Area::Eeprom
+                   : area == u"RAM"    ? Area::Ram
+                   : area == u"HYBRID" ? Area::Hybrid
+                                       : Area::Unknown;
+    if (m_field.area == Area::Unknown && json.contains(u"area"))
         say(QStringLiteral("\"area\" must be \"EEPROM\", \"RAM\" or \"HYBRID\""));
-    m_field.area = area == u"EEPROM" ? Area::Eeprom : area == u"RAM" ? Area::Ram : Area::Hybrid;
-
-    const QString access = json.value(u"access").toString();
-    if (access != u"R" && access != u"RW")
+    m_reading = QStringLiteral("access");
+    m_field.access = access == u"RW" ? Access::ReadWrite : access == u"R" ? Access::Read : Access::Unknown;
+    if (m_field.access == Access::Unknown && json.contains(u"access"))
         say(QStringLiteral("\"access\" must be \"R\" or \"RW\""));
-    m_field.access = access == u"RW" ? Access::ReadWrite : Access::Read;
 }
 
 void FieldReader::readInitial(const QJsonValue &value)
@@ -145,7 +130,7 @@ void FieldReader::readRange(const QJsonValue &value, Bound &minimum, Bound &maxi
     if (value.toString() == u"bits" && !m_field.bits.empty()) {
         std::int64_t all = 0;
         for (const BitField &bit : m_field.bits)
-            all |= bitMask(bit);
+            all |= bit.mask();
         minimum.number = 0;
         maximum.number = all;
         return;
@@ -182,171 +167,65 @@ void FieldReader::readUnit(const QJsonObject &json, Unit &unit, double &scale)
 {
     const QJsonValue name = json.value(u"unit");
     const QJsonValue factor = json.value(u"scale");
+    m_reading = QStringLiteral("unit");
     if (!name.isUndefined()) {
         const QString text = name.toString();
-        const auto known = std::find_if(std::begin(UnitNames), std::end(UnitNames),
-            [&](const UnitName &candidate) { return text == QStringView(candidate.name); });
-        if (known == std::end(UnitNames))
+        const std::optional<Unit> known = unitFromTable(text);
+        if (!known)
             return say(QStringLiteral("unknown unit \"%1\"").arg(text));
-        unit = known->unit;
+        unit = *known;
         scale = 1.0;
     }
     if (factor.isUndefined())
         return;
+    m_reading = QStringLiteral("scale");
     if (name.isUndefined())
         say(QStringLiteral("\"scale\" without \"unit\""));
-    scale = factor.toDouble();
+    readScale(factor, scale);
+}
+
+void FieldReader::readScale(const QJsonValue &value, double &scale)
+{
+    const QJsonValue number = value.isString() ? m_context.scales.value(value.toString()) : value;
+    if (number.isUndefined())
+        say(QStringLiteral("\"scales\" has no \"%1\"").arg(value.toString()));
+    scale = number.toDouble();
     if (!(scale >= 1e-9 && scale <= 1e9))
-        say(QStringLiteral("\"scale\" must be a number above 0"));
+        say(QStringLiteral("\"scale\" must be a number above 0, or the name of one of \"scales\""));
 }
 
-void FieldReader::readValues(const QJsonValue &value)
+void FieldReader::readDirectionBit(const QJsonValue &value, int &bit)
 {
-    if (!value.isString()) {
-        m_field.values = readNamed(value, true);
+    if (value.isUndefined())
         return;
-    }
-    if (value.toString() != u"baud rates")
-        return say(QStringLiteral("\"values\" must be an object or \"baud rates\""));
-    QJsonObject texts;
-    for (auto it = m_context.baudRates.begin(); it != m_context.baudRates.end(); ++it)
-        texts.insert(it.key(), QStringLiteral("%1 bps").arg(it->toInt()));
-    m_field.values = readNamed(texts, true);
-}
-
-std::vector<EnumValue> FieldReader::readNamed(const QJsonValue &value, bool distinct)
-{
-    std::vector<EnumValue> values;
-    const QJsonObject all = value.toObject();
-    QStringList names;
-    for (auto it = all.begin(); it != all.end(); ++it) {
-        const QJsonObject object = it->toObject();
-        if (it->isObject() && !holdsFor(object, m_context.firmware))
-            continue;
-        bool isNumber = false;
-        const std::int64_t number = it.key().toLongLong(&isNumber);
-        if (!isNumber || QString::number(number) != it.key())
-            say(QStringLiteral("\"%1\" is not a whole number").arg(it.key()));
-        checkFits(number, QStringLiteral("value"));
-        const QString text = it->isObject() ? object.value(u"text").toString() : it->toString();
-        checkLabel(text);
-        if (distinct && names.contains(normalizedName(text)))
-            say(QStringLiteral("two values are called \"%1\"").arg(text));
-        names.append(normalizedName(text));
-        values.push_back({number, text});
-    }
-    std::sort(values.begin(), values.end(), [](const EnumValue &a, const EnumValue &b) { return a.value < b.value; });
-    return values;
-}
-
-void FieldReader::readBits(const QJsonObject &json)
-{
-    for (auto it = json.begin(); it != json.end(); ++it) {
-        if (!it->isObject())
-            return say(QStringLiteral("bit \"%1\" must be an object").arg(it.key()));
-        if (holdsFor(it->toObject(), m_context.firmware))
-            readBit(it.key(), it->toObject());
-    }
-    if (!m_field.bits.empty() && !m_field.values.empty())
-        say(QStringLiteral("has values and bits; it can only have one of them"));
-    std::sort(m_field.bits.begin(), m_field.bits.end(),
-        [](const BitField &a, const BitField &b) { return a.first < b.first; });
-}
-
-void FieldReader::readBit(const QString &name, const QJsonObject &json)
-{
-    const auto place = bitPlace(json, 8 * m_field.size);
-    if (!place)
-        return say(QStringLiteral("\"%1\" needs \"bit\": n or \"bits\": [first, last] within the register").arg(name));
-    BitField bit;
-    bit.first = place->first;
-    bit.count = place->second;
-    bit.name = name;
-    checkLabel(name);
-    bit.values = readNamed(json.value(u"values"), true);
-    for (const EnumValue &value : bit.values) {
-        if (value.value < 0 || value.value >> bit.count != 0)
-            say(QStringLiteral("value %1 doesn't fit \"%2\"").arg(value.value).arg(name));
-    }
-    for (const BitField &other : m_field.bits) {
-        if (bitMask(other) & bitMask(bit))
-            say(QStringLiteral("\"%1\" and \"%2\" overlap").arg(other.name, name));
-        if (normalizedName(other.name) == normalizedName(name))
-            say(QStringLiteral("two bits are called \"%1\"").arg(name));
-    }
-    m_field.bits.push_back(bit);
-}
-
-void FieldReader::readAlternates(const QJsonValue &value)
-{
-    for (const QJsonValue &entry : value.toArray()) {
-        if (const std::optional<Alternate> alternate = readAlternate(entry.toObject()))
-            m_field.alternates.push_back(*alternate);
-    }
-}
-
-std::optional<Alternate> FieldReader::readAlternate(const QJsonObject &json)
-{
-    Alternate alternate;
-    alternate.reg = json.value(u"register").toString();
-    alternate.minimum = m_field.minimum;
-    alternate.maximum = m_field.maximum;
-    alternate.unit = m_field.unit;
-    alternate.scale = m_field.scale;
-    readRange(json.value(u"range"), alternate.minimum, alternate.maximum);
-    readUnit(json, alternate.unit, alternate.scale);
-
-    const QJsonValue decider = m_context.registers.value(alternate.reg);
-    const bool byBit = json.contains(u"bit");
-    if (!decider.isObject() || byBit == json.contains(u"values")) {
-        say(QStringLiteral("an alternate needs \"register\", one of this table, and either \"bit\" or \"values\""));
-        return std::nullopt;
-    }
-    const bool applies = byBit ? resolveBit(decider.toObject(), json.value(u"bit").toString(), alternate)
-                               : resolveValues(decider.toObject(), json.value(u"values").toArray(), alternate);
-    // An alternate exists only where the register that decides does.
-    return applies && holdsFor(decider.toObject(), m_context.firmware) ? std::optional(alternate) : std::nullopt;
-}
-
-bool FieldReader::resolveBit(const QJsonObject &decider, const QString &bit, Alternate &alternate)
-{
-    const QJsonObject json = decider.value(u"bits").toObject().value(bit).toObject();
-    const auto place = bitPlace(json, 32);
-    if (!place || place->second != 1) {
-        say(QStringLiteral("%1 has no single bit \"%2\"").arg(alternate.reg, bit));
-        return false;
-    }
-    alternate.mask = std::uint32_t(1) << place->first;
-    alternate.values = {static_cast<std::int64_t>(alternate.mask)};
-    return holdsFor(json, m_context.firmware);
-}
-
-bool FieldReader::resolveValues(const QJsonObject &decider, const QJsonArray &values, Alternate &alternate)
-{
-    // Families extend each other: what this model's register can't be is left out, but not everything.
-    const QJsonObject possible = decider.value(u"values").toObject();
-    for (const QJsonValue &value : values) {
-        const std::optional<std::int64_t> number = wholeNumber(value);
-        if (!number)
-            say(QStringLiteral("\"values\" of an alternate must be whole numbers"));
-        else if (possible.isEmpty() || possible.contains(QString::number(*number)))
-            alternate.values.push_back(*number);
-    }
-    if (alternate.values.empty())
-        say(QStringLiteral("%1 has none of the values of an alternate").arg(alternate.reg));
-    return !alternate.values.empty();
+    m_reading = QStringLiteral("directionBit");
+    const std::int64_t number = wholeNumber(value).value_or(-1);
+    if (number < 1 || number >= 8 * m_field.size || m_field.isSigned)
+        return say(QStringLiteral("\"directionBit\" must be a bit above the lowest of an unsigned register"));
+    bit = static_cast<int>(number);
 }
 
 void FieldReader::readTexts(const QJsonObject &json)
 {
-    m_field.help = json.value(u"help").toString();
-    if (m_field.help.isEmpty() || m_field.help.size() > LongestHelp)
-        say(QStringLiteral("\"help\" must be a text of at most %1 characters").arg(LongestHelp));
+    m_reading = QStringLiteral("help");
+    m_field.help = readText(json, QStringLiteral("help"));
+    m_reading = QStringLiteral("doubt");
+    m_field.doubt = readText(json, QStringLiteral("doubt"));
+    m_reading = QStringLiteral("resets");
     const QJsonValue resets = json.value(u"resets");
     if (!resets.isUndefined() && !resets.isArray())
         say(QStringLiteral("\"resets\" must be a list of registers"));
-    for (const QJsonValue &name : resets.toArray())
+    for (const QJsonValue &name : m_context.addressesOnly ? QJsonArray() : resets.toArray())
         m_field.resets.append(name.toString());
+}
+
+QString FieldReader::readText(const QJsonObject &json, const QString &key)
+{
+    const QJsonValue value = json.value(key);
+    const QString text = value.toString();
+    if (!value.isUndefined() && (text.isEmpty() || text.size() > LongestHelp))
+        say(QStringLiteral("\"%1\" must be a text of at most %2 characters").arg(key).arg(LongestHelp));
+    return text;
 }
 
 void FieldReader::checkFits(std::int64_t number, const QString &what)
@@ -369,8 +248,12 @@ void FieldReader::checkLabel(const QString &text)
 
 void FieldReader::say(const QString &what)
 {
-    if (m_wrong.isEmpty())
-        m_wrong = m_field.name + QStringLiteral(": ") + what;
+    if (!m_wrong.isEmpty())
+        return;
+    m_wrong = m_field.name + QStringLiteral(": ") + what;
+    m_wrongPath = {m_reading};
+    if (m_alternate >= 0)
+        m_wrongPath = QStringList{QStringLiteral("alternates"), QString::number(m_alternate), m_reading};
 }
 
 } // namespace dynascope

@@ -27,6 +27,11 @@ public:
         int firmware = 0;
         QJsonObject registers; ///< all of the model, for what depends on other registers
         QJsonObject baudRates;
+        QJsonObject scales;     ///< by name
+        QJsonObject valueLists; ///< by name
+        GearRatio gearRatio;
+        double torqueConstant = 0;
+        bool addressesOnly = false;
     };
 
     explicit FieldReader(const Context &context) : m_context(context) { }
@@ -34,13 +39,18 @@ public:
     Field read(const QString &name, const QJsonObject &json);
     /// What is wrong, beginning with the register's name; empty where nothing is.
     const QString &wrong() const { return m_wrong; }
+    /// The keys within the register that lead to it.
+    const QStringList &wrongPath() const { return m_wrongPath; }
 
 private:
     void readPlace(const QJsonObject &json);
+    void readMeaning(const QJsonObject &json);
     void readInitial(const QJsonValue &value);
     void readRange(const QJsonValue &value, Bound &minimum, Bound &maximum);
     void readUnit(const QJsonObject &json, Unit &unit, double &scale);
-    void readValues(const QJsonValue &value);
+    void readScale(const QJsonValue &value, double &scale);
+    void readDirectionBit(const QJsonValue &value, int &bit);
+    QJsonValue listed(const QJsonValue &value);
     std::vector<EnumValue> readNamed(const QJsonValue &value, bool distinct);
     void readBits(const QJsonObject &json);
     void readBit(const QString &name, const QJsonObject &json);
@@ -49,6 +59,7 @@ private:
     bool resolveBit(const QJsonObject &decider, const QString &bit, Alternate &alternate);
     bool resolveValues(const QJsonObject &decider, const QJsonArray &values, Alternate &alternate);
     void readTexts(const QJsonObject &json);
+    QString readText(const QJsonObject &json, const QString &key);
     Bound readBound(const QJsonValue &value);
     void checkFits(std::int64_t number, const QString &what);
     void checkLabel(const QString &text);
@@ -56,7 +67,10 @@ private:
 
     const Context &m_context;
     Field m_field;
+    QString m_reading;    ///< the key being read
+    int m_alternate = -1; ///< of this alternate; −1: of the register itself
     QString m_wrong;
+    QStringList m_wrongPath;
 };
 
 } // namespace dynascope

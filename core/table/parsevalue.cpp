@@ -56,6 +56,8 @@ constexpr TypedUnit TypedUnits[] = {
     {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
     {u"mA", Unit::MilliAmpere, 1.0},
     {u"A", Unit::MilliAmpere, 1000.0},
+    {u"A", Unit::Ampere, 1.0},
+    {u"mA", Unit::Ampere, 0.001},
     {u"%", Unit::Percent, 1.0},
     {u"percent", Unit::Percent, 1.0},
     {u"V", Unit::Volt, 1.0},
@@ -71,7 +73,21 @@ constexpr TypedUnit TypedUnits[] = {
     {u"us", Unit::Millisecond, 0.001},
     {u"mV/ms", Unit::MilliVoltPerMs, 1.0},
     {u"V/s", Unit::MilliVoltPerMs, 1.0},
+    {u"Hz", Unit::Hertz, 1.0},
+    {u"kHz", Unit::Hertz, 1000.0},
+    {u"pulse/s", Unit::PulsePerSec, 1.0},
+    {u"pulse/ms", Unit::PulsePerMs, 1.0},
 };
+
+bool isAngle(Unit unit)
+{
+    return unit == Unit::Pulse || unit == Unit::Degree;
+}
+
+bool hasTorque(const EffectiveField &field)
+{
+    return field.torqueConstant > 0 && (field.unit == Unit::MilliAmpere || field.unit == Unit::Ampere);
+}
 
 QString lowered(QStringView text)
 {
@@ -85,15 +101,18 @@ QString lowered(QStringView text)
     return plain;
 }
 
-QString typableUnits(Unit unit)
+QString typableUnits(const EffectiveField &field)
 {
+    const Unit unit = isAngle(field.unit) ? Unit::Pulse : field.unit; // angles are typed alike
     QStringList offered;
     for (const TypedUnit &typed : TypedUnits) {
         if (typed.unit == unit && offered.size() < 3)
             offered.append(QString::fromUtf16(typed.text));
     }
-    if (unit == Unit::Pulse)
+    if (isAngle(field.unit))
         offered.append(QStringLiteral("pulse"));
+    if (hasTorque(field))
+        offered.append(QStringLiteral("Nm"));
     return oneOf(offered);
 }
 
@@ -141,6 +160,8 @@ std::optional<Leading> leadingNumber(QStringView text)
     number.value = text.first(at).toDouble(&ok);
     if (!ok)
         return std::nullopt; // too large for a double
+    if (text[0] == u'-')
+        number.value = -std::abs(number.value); // −0 too: it may be another raw value
     if (number.whole)
         number.integer = text.first(at).toLongLong(&number.whole);
     number.rest = text.sliced(at).trimmed().toString();
@@ -163,19 +184,41 @@ std::optional<std::int64_t> hexadecimal(QStringView text)
     return negative ? -number : number;
 }
 
+/// Refused where the other bits of a register whose direction is a bit have no room for it.
+Result<std::int64_t> rawOf(const Field &field, const EffectiveField &effective, int resolution, double value,
+    const UnitPreferences &units)
+{
+    const std::int64_t raw = rawFromPhysical(effective, resolution, value, units);
+    if (effective.directionBit < 0)
+        return raw;
+    const Physical most = physical(effective, resolution, (std::int64_t(1) << effective.directionBit) - 1, units);
+    const Physical one = physical(effective, resolution, 1, units);
+    if (std::abs(value) < most.value + one.value / 2)
+        return raw;
+    const QString end = QString::number(most.value, 'f', most.decimals);
+    return refuse(QStringLiteral("%1 can't be %2 %3; its range is -%4 to %4 %3")
+                      .arg(field.name, QString::number(value, 'f', most.decimals), most.unit, end));
+}
+
 Result<std::int64_t> fromUnit(
     const Field &field, const EffectiveField &effective, int resolution, const Leading &number)
 {
     if (effective.unit == Unit::None)
         return refuse(QStringLiteral("%1 has no unit; give a bare number").arg(field.name));
-    if (effective.unit == Unit::Pulse && (number.unit == u"pulse" || number.unit == u"pulses"))
-        return rawFromPhysical(effective, resolution, number.value, AngleUnit::Pulses);
+    if (isAngle(effective.unit) && (number.unit == u"pulse" || number.unit == u"pulses"))
+        return rawOf(field, effective, resolution, number.value, AngleUnit::Pulses);
+    if (hasTorque(effective) && (number.unit == u"nm" || number.unit == u"n·m")) {
+        UnitPreferences torque;
+        torque.torque = true;
+        return rawOf(field, effective, resolution, number.value, torque);
+    }
+    const Unit unit = isAngle(effective.unit) ? Unit::Pulse : effective.unit;
     for (const TypedUnit &typed : TypedUnits) {
-        if (typed.unit == effective.unit && lowered(QString::fromUtf16(typed.text)) == number.unit)
-            return rawFromPhysical(effective, resolution, number.value * typed.factor);
+        if (typed.unit == unit && lowered(QString::fromUtf16(typed.text)) == number.unit)
+            return rawOf(field, effective, resolution, number.value * typed.factor, {});
     }
     return refuse(QStringLiteral("\"%1\" does not fit %2; it takes %3, or a bare number for the register's own value")
-                      .arg(number.rest, field.name, typableUnits(effective.unit)));
+                      .arg(number.rest, field.name, typableUnits(effective)));
 }
 
 /// The value whose name this is, or that alone begins so.
@@ -295,7 +338,7 @@ Result<std::int64_t> fromName(const Field &field, const EffectiveField &effectiv
         return refuse(QStringLiteral("\"%1\" is no value of %2; it is one of %3").arg(text, field.name, oneOf(names)));
     QString takes = QStringLiteral("a number");
     if (effective.unit != Unit::None)
-        takes += QStringLiteral(", one with %1").arg(typableUnits(effective.unit));
+        takes += QStringLiteral(", one with %1").arg(typableUnits(effective));
     if (!names.isEmpty())
         takes += QStringLiteral(", or %1").arg(oneOf(names));
     return refuse(QStringLiteral("\"%1\" is no value of %2; it takes %3").arg(text, field.name, takes));
@@ -315,7 +358,7 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
         return refuse(effective.unit == Unit::None
                 ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
                 : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
-                      .arg(field.name, typableUnits(effective.unit), text));
+                      .arg(field.name, typableUnits(effective), text));
     }
     if (!namesOf(field).isEmpty()) {
         const Result<std::int64_t> value = fromName(field, effective, text);
@@ -328,7 +371,7 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
 } // namespace
 
 Result<std::int64_t> parseValue(
-    const Field &field, const EffectiveField &effective, int resolution, QStringView text, AngleUnit angle)
+    const Field &field, const EffectiveField &effective, int resolution, QStringView text, const UnitPreferences &units)
 {
     QString trimmed = text.trimmed().toString();
     trimmed.replace(u'\u2212', u'-'); // the typographic minus, as it comes from copied text
@@ -337,7 +380,7 @@ Result<std::int64_t> parseValue(
     const Result<std::int64_t> raw = unchecked(field, effective, resolution, trimmed);
     if (!raw)
         return raw;
-    const Result<void> inRange = checkRange(field, effective, *raw, resolution, angle);
+    const Result<void> inRange = checkRange(field, effective, *raw, resolution, units);
     if (!inRange)
         return tl::unexpected<Error>(inRange.error());
     return raw;

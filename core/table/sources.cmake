@@ -2,11 +2,17 @@ target_sources(dynascope_core PRIVATE
     table/catalog.cpp table/catalog.h
     table/controltable.cpp table/controltable.h
     table/field.h
-    table/fieldreader.cpp table/fieldreader.h
+    table/fieldreader.cpp table/fieldreader.h table/fieldreader_values.cpp
     table/jsonguard.cpp table/jsonguard.h
+    table/jsonscanner.cpp table/jsonscanner.h
     table/parsevalue.cpp
+    table/memo.h
+    table/rawtable.cpp table/rawtable.h
     table/tablebuilder.cpp table/tablebuilder.h
+    table/tablefault.h
+    table/tablefile.cpp table/tablefile.h
     table/tablemerge.cpp table/tablemerge.h
+    table/tableoutline.cpp table/tableoutline.h
     table/units.cpp table/units.h
 )
 
@@ -14,4 +20,5 @@ target_sources(dynascope_core PRIVATE
 set(DYNASCOPE_TABLES ${PROJECT_SOURCE_DIR}/resources/controltables)
 file(GLOB DYNASCOPE_TABLE_FILES CONFIGURE_DEPENDS ${DYNASCOPE_TABLES}/*.json)
 qt_add_resources(dynascope_core "controltables" PREFIX "/controltables" BASE ${DYNASCOPE_TABLES}
+    OPTIONS --no-compress # read where they lie, without a copy
     FILES ${DYNASCOPE_TABLE_FILES})

@@ -13,66 +13,147 @@ constexpr int LeastBuffer = 64, MostBuffer = 65535; ///< bytes; a Sync Write of 
 constexpr int MostTables = 16;    ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
 
+const QString Registers = QStringLiteral("registers");
+const QString Indirect = QStringLiteral("indirect");
 const QString IndirectAddress = QStringLiteral("Indirect Address #");
 const QString IndirectData = QStringLiteral("Indirect Data #");
+
+QString numbered(const QString &name, int number)
+{
+    const qsizetype place = name.indexOf(u'#');
+    QString text;
+    text.reserve(name.size() + 3);
+    text.append(QStringView(name).first(place));
+    text.append(QString::number(number));
+    text.append(QStringView(name).sliced(place + 1));
+    return text;
+}
+
+/// A field is large: each is moved once.
+std::vector<Field> byAddress(std::vector<Field> fields)
+{
+    std::vector<std::pair<int, std::size_t>> order;
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        order.emplace_back(fields[i].address, i);
+    std::sort(order.begin(), order.end());
+    std::vector<Field> sorted;
+    sorted.reserve(fields.size());
+    for (const auto &place : order)
+        sorted.push_back(std::move(fields[place.second]));
+    return sorted;
+}
+
+/// Registers that this model doesn't have are not reset.
+void dropResetsWithout(std::vector<Field> &fields)
+{
+    for (Field &field : fields) {
+        if (field.resets.isEmpty())
+            continue;
+        field.resets.removeIf([&](const QString &reset) {
+            return std::none_of(
+                fields.begin(), fields.end(), [&](const Field &other) { return other.name == reset; });
+        });
+    }
+}
 
 } // namespace
 
 TableBuilder::TableBuilder(QString model, QJsonObject settings)
     : m_model(std::move(model)), m_settings(std::move(settings))
 {
-}
-
-std::vector<ControlTablePtr> TableBuilder::build()
-{
-    std::vector<ControlTablePtr> tables;
     readModel();
-    const std::vector<int> steps = firmwareSteps();
-    for (std::size_t i = 0; i + 1 < steps.size() && m_wrong.isEmpty(); ++i)
-        tables.push_back(buildFor(steps[i], steps[i + 1] - 1));
-    return m_wrong.isEmpty() ? tables : std::vector<ControlTablePtr>();
+    readGear();
+    readBaudRates();
+    readSteps();
 }
 
 void TableBuilder::readModel()
 {
+    const auto text = [this](const char16_t *key) { return m_settings.value(QStringView(key)).toString(); };
     if (normalizedName(m_model).isEmpty() || m_model.size() > 40)
-        say(QStringLiteral("not a name for a model"));
+        say({}, QStringLiteral("not a name for a model"));
     m_common.model = m_model;
     m_common.modelNumber = static_cast<std::uint16_t>(numberIn(m_settings, QStringLiteral("number"), 0, 65535, {}));
-    m_common.series = m_settings.value(u"series").toString();
+    for (const QJsonValue &name : m_settings.value(u"alsoCalled").toArray())
+        m_common.alsoCalled.append(name.toString());
+    m_common.series = text(u"series");
     if (m_common.series.isEmpty())
-        say(QStringLiteral("\"series\" is missing"));
-    m_common.resolution = static_cast<int>(numberIn(m_settings, QStringLiteral("resolution"), 1, 100'000'000, {}));
+        say({}, QStringLiteral("\"series\" is missing"));
+    m_common.addressesOnly = m_settings.value(u"addressesOnly").toBool();
+    m_common.newestFirmware = readFirmware(QStringLiteral("newestFirmware"));
+    if (m_settings.contains(u"modbusNumberOffset"))
+        m_common.modbusNumber =
+            m_common.modelNumber
+            + static_cast<int>(numberIn(m_settings, QStringLiteral("modbusNumberOffset"), 1, 1000, {}));
+    if (!m_common.addressesOnly)
+        readAbilities();
     if (m_settings.contains(u"axes"))
-        m_common.axes = static_cast<int>(numberIn(m_settings, QStringLiteral("axes"), 1, 2, {}));
-    m_newestFirmware = static_cast<int>(numberIn(m_settings, QStringLiteral("newestFirmware"), 0, NewestFirmware, {}));
-    m_common.fastReadsFrom = readFirmware(QStringLiteral("fastReadsSince"));
-    m_common.backupFrom = readFirmware(QStringLiteral("backupSince"));
+        m_common.axes = static_cast<int>(numberIn(m_settings, QStringLiteral("axes"), 1, 8, {}));
     if (m_settings.contains(u"receiveBuffer"))
         m_common.receiveBuffer
             = static_cast<int>(numberIn(m_settings, QStringLiteral("receiveBuffer"), LeastBuffer, MostBuffer, {}));
-    m_common.manualPage = m_settings.value(u"manual").toString();
-    if (!m_common.manualPage.startsWith(u"https://"))
-        say(QStringLiteral("\"manual\" must be an https address"));
-    readBaudRates();
+    m_common.manualPage = text(u"manual");
+    if (!m_common.manualPage.isEmpty() && !m_common.manualPage.startsWith(u"https://"))
+        say({QStringLiteral("manual")}, QStringLiteral("\"manual\" must be an https address"));
+    m_common.doubt = text(u"doubt");
     m_context.modelNumber = m_common.modelNumber;
-    m_context.registers = m_settings.value(u"registers").toObject();
+    m_context.addressesOnly = m_common.addressesOnly;
+    m_context.registers = m_settings.value(Registers).toObject();
     m_context.baudRates = m_settings.value(u"baudRates").toObject();
+    m_context.scales = m_settings.value(u"scales").toObject();
+    m_context.valueLists = m_settings.value(u"valueLists").toObject();
+}
+
+void TableBuilder::readAbilities()
+{
+    m_common.fastReadsFrom = readFirmware(QStringLiteral("fastReadsSince"));
+    m_common.backupFrom = readFirmware(QStringLiteral("backupSince"));
+    m_common.clearFrom = readFirmware(QStringLiteral("clearSince"));
+    m_common.clearsErrors = m_settings.value(u"clearsErrors").toBool();
+    m_common.resetByBroadcastUntil = readFirmware(QStringLiteral("resetByBroadcastUntil"));
+}
+
+void TableBuilder::readGear()
+{
+    m_common.resolution = m_settings.contains(u"resolution")
+                              ? static_cast<int>(numberIn(m_settings, QStringLiteral("resolution"), 1, 100'000'000, {}))
+                              : 0;
+    const QString torque = QStringLiteral("torqueConstant"), gear = QStringLiteral("gearRatio");
+    if (m_settings.contains(torque)) {
+        m_context.torqueConstant = m_settings.value(torque).toDouble();
+        if (!(m_context.torqueConstant >= 1e-9 && m_context.torqueConstant <= 1e9))
+            say({torque}, QStringLiteral("\"torqueConstant\" must be a number above 0"));
+    }
+    if (!m_settings.contains(gear))
+        return;
+    const QJsonArray both = m_settings.value(gear).toArray();
+    GearRatio &ratio = m_context.gearRatio;
+    ratio.numerator = both.at(0).toString();
+    ratio.denominator = both.at(1).toString();
+    const QJsonObject numerator = m_context.registers.value(ratio.numerator).toObject();
+    const QJsonObject denominator = m_context.registers.value(ratio.denominator).toObject();
+    if (both.size() != 2 || numerator.isEmpty() || denominator.isEmpty())
+        return say({gear}, QStringLiteral("\"gearRatio\" must be two registers"));
+    const double above = numerator.value(u"initial").toDouble(), below = denominator.value(u"initial").toDouble();
+    ratio.initialTurns = above >= 1 && below >= 1 ? below / above : 1.0;
 }
 
 void TableBuilder::readBaudRates()
 {
-    const QJsonObject rates = m_settings.value(u"baudRates").toObject();
-    for (auto it = rates.begin(); it != rates.end(); ++it) {
+    const QJsonObject &rates = m_context.baudRates;
+    for (auto it = rates.begin(); it != rates.end() && !m_common.addressesOnly; ++it) {
         bool isNumber = false;
         const int code = it.key().toInt(&isNumber);
         const std::int64_t rate = wholeNumber(it.value()).value_or(0);
-        if (!isNumber || code < 0 || code > 255 || QString::number(code) != it.key() || rate < 1 || rate > 100'000'000)
-            return say(QStringLiteral("\"baudRates\" must be codes from 0 to 255 and rates in bits per second"));
+        if (!isNumber || code < 0 || code > 255 || QString::number(code) != it.key() || rate < 1
+            || rate > 100'000'000) {
+            return say({QStringLiteral("baudRates"), it.key()},
+                       QStringLiteral("\"baudRates\" must be codes from 0 to 255 and rates in bits per second"));
+        }
         m_common.baudCodes.push_back({static_cast<std::uint8_t>(code), static_cast<int>(rate)});
     }
     std::sort(m_common.baudCodes.begin(), m_common.baudCodes.end(),
-        [](const BaudCode &a, const BaudCode &b) { return a.code < b.code; });
+              [](const BaudCode &a, const BaudCode &b) { return a.code < b.code; });
 }
 
 int TableBuilder::readFirmware(const QString &key)
@@ -80,144 +161,221 @@ int TableBuilder::readFirmware(const QString &key)
     return m_settings.contains(key) ? static_cast<int>(numberIn(m_settings, key, 0, NewestFirmware, {})) : -1;
 }
 
-/// Where the table changes: 0, each first firmware of something new or gone, and one past the newest.
-std::vector<int> TableBuilder::firmwareSteps()
+void TableBuilder::readSteps()
 {
-    std::vector<int> steps{0, NewestFirmware + 1};
-    const QJsonObject registers = m_settings.value(u"registers").toObject();
-    for (auto it = registers.begin(); it != registers.end(); ++it)
-        collectSteps(it.value(), it.key(), steps);
-    collectSteps(m_settings.value(u"indirect"), QStringLiteral("indirect"), steps);
-    std::sort(steps.begin(), steps.end());
-    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
-    if (static_cast<int>(steps.size()) > MostTables)
-        say(QStringLiteral("more than %1 kinds of firmware").arg(MostTables));
-    return steps;
+    m_steps = {0, NewestFirmware + 1};
+    if (m_common.addressesOnly)
+        return; // of no known firmware
+    for (auto it = m_context.registers.begin(); it != m_context.registers.end(); ++it)
+        collectSteps(it->toObject(), {Registers, it.key()}, m_steps);
+    for (const QJsonValue &group : m_settings.value(Indirect).toArray())
+        collectSteps(group.toObject(), {Indirect}, m_steps);
+    std::sort(m_steps.begin(), m_steps.end());
+    m_steps.erase(std::unique(m_steps.begin(), m_steps.end()), m_steps.end());
+    if (static_cast<int>(m_steps.size()) > MostTables)
+        say({}, QStringLiteral("more than %1 kinds of firmware").arg(MostTables));
 }
 
-void TableBuilder::collectSteps(const QJsonValue &value, const QString &where, std::vector<int> &steps)
+/// "since" and "until" of a register or group, and of the values and bits within.
+void TableBuilder::collectSteps(const QJsonObject &json, const QStringList &path, std::vector<int> &steps)
 {
-    for (const QJsonValue &member : value.toArray())
-        collectSteps(member, where, steps);
-    const QJsonObject json = value.toObject();
     for (const QString &key : {QStringLiteral("since"), QStringLiteral("until")}) {
-        if (!json.contains(key))
+        const QJsonValue value = json.value(key);
+        if (value.isUndefined())
             continue;
-        const auto firmware = static_cast<int>(numberIn(json, key, 0, NewestFirmware, where));
+        const auto firmware = static_cast<int>(numberIn(json, key, 0, NewestFirmware, path));
         steps.push_back(key == u"since" ? firmware : firmware + 1);
+        if (json.value(u"since").toInt(0) > json.value(u"until").toInt(NewestFirmware))
+            say(path, QStringLiteral("%1: \"since\" is later than \"until\"").arg(path.last()));
     }
-    if (json.value(u"since").toInt(0) > json.value(u"until").toInt(NewestFirmware))
-        say(QStringLiteral("%1: \"since\" is later than \"until\"").arg(where));
-    for (const QJsonValue &member : json)
-        collectSteps(member, where, steps);
+    for (const char16_t *key : {u"bits", u"values", u"special"}) {
+        const QJsonValue members = json.value(QStringView(key));
+        if (!members.isObject())
+            continue;
+        for (const QJsonValue &member : members.toObject()) {
+            if (member.isObject())
+                collectSteps(member.toObject(), path, steps);
+        }
+    }
 }
 
-ControlTablePtr TableBuilder::buildFor(int from, int to)
+ControlTablePtr TableBuilder::build(int from, int to, bool isKnownSound)
 {
     ControlTable::Description table = m_common;
     m_context.firmware = from;
     table.firmwareFrom = from;
     table.firmwareTo = to;
+    table.fields.reserve(static_cast<std::size_t>(m_context.registers.size()) + 2 * MostNumbered);
     readRegisters(table.fields);
     readIndirect(table.fields);
-    if (m_wrong.isEmpty())
+    table.fields = byAddress(std::move(table.fields));
+    if (!m_fault.isSet() && !isKnownSound)
         checkTogether(table.fields);
+    dropResetsWithout(table.fields);
+    if (m_fault.isSet())
+        return nullptr;
     for (const Field &field : table.fields) {
-        if (field.name == u"Operating Mode") {
+        if (field.name == u"Operating Mode" || field.name == u"Control Mode") {
             for (const EnumValue &mode : field.values)
                 table.operatingModes.push_back(static_cast<int>(mode.value));
         }
+        // Positions in degrees are steps as well, as many as make a turn.
+        if (field.unit == Unit::Degree && table.resolution == 0)
+            table.resolution = static_cast<int>(std::clamp(360.0 / field.scale + 0.5, 1.0, 1e8));
+        if (field.unit == Unit::Pulse && table.resolution == 0)
+            sayOf(field, QStringLiteral("counts in pulses, but \"resolution\" is missing"));
     }
-    return std::make_shared<const ControlTable>(std::move(table));
+    return m_fault.isSet() ? nullptr : std::make_shared<const ControlTable>(std::move(table));
 }
+
+bool TableBuilder::exists(const QJsonObject &json) const
+{
+    return m_common.addressesOnly || holdsFor(json, m_context.firmware);
+}
+
+std::int64_t TableBuilder::numberIn(const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high,
+                                    const QStringList &path)
+{
+    const std::optional<std::int64_t> number = wholeNumber(json.value(key));
+    if (number && *number >= low && *number <= high)
+        return *number;
+    const QString place = path.isEmpty() ? QString() : path.last() + QStringLiteral(": ");
+    say(path + QStringList{key},
+        QStringLiteral("%1\"%2\" must be a whole number from %3 to %4").arg(place, key).arg(low).arg(high));
+    return low;
+}
+
+void TableBuilder::say(const QStringList &path, const QString &what)
+{
+    if (!m_fault.isSet())
+        m_fault = {m_model + QStringLiteral(": ") + what, path};
+}
+
+void TableBuilder::sayOf(const Field &field, const QString &what)
+{
+    static const QString block = QStringLiteral("Indirect ");
+    const bool generated = field.name.startsWith(block) && !m_context.registers.contains(field.name)
+                           && !m_context.registers.contains(IndirectAddress);
+    say(generated ? QStringList{Indirect} : QStringList{Registers, field.name},
+        QStringLiteral("%1: %2").arg(field.name, what));
+}
+
+// --- Registers ------------------------------------------------------------------------------------------------------
 
 void TableBuilder::readRegisters(std::vector<Field> &fields)
 {
     const QJsonObject &registers = m_context.registers;
-    for (auto it = registers.begin(); it != registers.end() && m_wrong.isEmpty(); ++it) {
+    for (auto it = registers.begin(); it != registers.end() && !m_fault.isSet(); ++it) {
         const QJsonObject json = it->toObject();
-        if (!holdsFor(json, m_context.firmware))
+        if (!exists(json))
             continue;
-        if (it.key().contains(u'#'))
+        if (it.key().contains(u'#')) {
             readNumbered(it.key(), json, fields);
-        else if (json.contains(u"count"))
-            say(QStringLiteral("%1: \"count\" needs a # in the name, for the number").arg(it.key()));
-        else
-            add(it.key(), json, fields);
+        } else if (json.contains(u"count")) {
+            say({Registers, it.key()},
+                QStringLiteral("%1: \"count\" needs a # in the name, for the number").arg(it.key()));
+        } else {
+            add(it.key(), it.key(), json, fields);
+        }
     }
 }
 
 void TableBuilder::readNumbered(const QString &name, const QJsonObject &json, std::vector<Field> &fields)
 {
-    const std::int64_t count = numberIn(json, QStringLiteral("count"), 1, MostNumbered, name);
-    for (int i = 0; i < count && m_wrong.isEmpty(); ++i) {
-        QJsonObject one = json;
-        if (i > 0)
-            one.insert(QStringLiteral("address"), json.value(u"address").toDouble() + i * json.value(u"size").toInt());
-        add(QString(name).replace(u'#', QString::number(i + 1)), one, fields);
+    const QStringList path{Registers, name};
+    const auto count = static_cast<int>(numberIn(json, QStringLiteral("count"), 1, MostNumbered, path));
+    int stride = json.value(u"size").toInt();
+    if (json.contains(u"stride"))
+        stride = static_cast<int>(numberIn(json, QStringLiteral("stride"), 1, 256, path));
+    add(numbered(name, 1), name, json, fields);
+    if (!m_fault.isSet())
+        addCopies(fields.back(), name, 2, count - 1, stride, 0, fields);
+}
+
+/// Registers that differ from `first` in number, address and initial value only.
+void TableBuilder::addCopies(const Field &first, const QString &name, int from, int count, int stride, int initialStep,
+                             std::vector<Field> &fields)
+{
+    Field copy = first; // `first` may be one of `fields`
+    if (static_cast<int>(fields.size()) + count > MostRegisters)
+        return say({}, QStringLiteral("more than %1 registers").arg(MostRegisters));
+    for (int i = 0; i < count; ++i) {
+        if (copy.end() + stride > 0x10000)
+            return sayOf(copy, QStringLiteral("is followed by more than the address space holds"));
+        copy.name = numbered(name, from + i);
+        copy.address = static_cast<std::uint16_t>(copy.address + stride);
+        if (copy.initial)
+            copy.initial = *copy.initial + initialStep;
+        fields.push_back(copy);
     }
 }
 
 void TableBuilder::readIndirect(std::vector<Field> &fields)
 {
     int number = 1;
-    for (const QJsonValue &entry : m_settings.value(u"indirect").toArray()) {
+    for (const QJsonValue &entry : m_settings.value(Indirect).toArray()) {
         const QJsonObject group = entry.toObject();
-        if (!holdsFor(group, m_context.firmware))
+        if (!exists(group))
             continue;
         for (const QJsonValue &block : group.value(u"blocks").toArray())
             readIndirectBlock(block.toObject(), group.value(u"range"), number, fields);
     }
 }
 
-void TableBuilder::readIndirectBlock(
-    const QJsonObject &block, const QJsonValue &range, int &number, std::vector<Field> &fields)
+void TableBuilder::readIndirectBlock(const QJsonObject &block, const QJsonValue &range, int &number,
+                                     std::vector<Field> &fields)
 {
-    const QString where = QStringLiteral("indirect");
-    const std::int64_t count = numberIn(block, QStringLiteral("count"), 1, MostNumbered, where);
-    const std::int64_t address = numberIn(block, QStringLiteral("address"), 0, 65535, where);
-    const std::int64_t dataAddress = numberIn(block, QStringLiteral("dataAddress"), 0, 65535, where);
+    const QStringList path{Indirect};
+    const auto count = static_cast<int>(numberIn(block, QStringLiteral("count"), 1, MostNumbered, path));
+    const std::int64_t address = numberIn(block, QStringLiteral("address"), 0, 65535, path);
+    const std::int64_t dataAddress = numberIn(block, QStringLiteral("dataAddress"), 0, 65535, path);
     const QJsonObject definitions = m_settings.value(u"definitions").toObject();
     QJsonObject pointer = definitions.value(IndirectAddress).toObject();
     QJsonObject data = definitions.value(IndirectData).toObject();
     if (range.isUndefined() || pointer.isEmpty() || data.isEmpty())
-        return say(QStringLiteral("%1: needs \"range\", and definitions of the two registers").arg(where));
+        return say(path, QStringLiteral("indirect: needs \"range\", and definitions of the two registers"));
     pointer.insert(QStringLiteral("range"), range);
-    for (std::int64_t i = 0; i < count && m_wrong.isEmpty(); ++i, ++number) {
-        pointer.insert(QStringLiteral("address"), static_cast<qint64>(address + i * pointer.value(u"size").toInt()));
-        pointer.insert(QStringLiteral("initial"), static_cast<qint64>(dataAddress + i));
-        data.insert(QStringLiteral("address"), static_cast<qint64>(dataAddress + i * data.value(u"size").toInt()));
-        add(QString(IndirectAddress).replace(u'#', QString::number(number)), pointer, fields);
-        add(QString(IndirectData).replace(u'#', QString::number(number)), data, fields);
-    }
+    pointer.insert(QStringLiteral("address"), static_cast<qint64>(address));
+    pointer.insert(QStringLiteral("initial"), static_cast<qint64>(dataAddress));
+    data.insert(QStringLiteral("address"), static_cast<qint64>(dataAddress));
+    add(numbered(IndirectAddress, number), Indirect, pointer, fields);
+    add(numbered(IndirectData, number), Indirect, data, fields);
+    if (m_fault.isSet())
+        return;
+    const Field first = fields[fields.size() - 2], shown = fields.back();
+    addCopies(first, IndirectAddress, number + 1, count - 1, first.size, 1, fields);
+    addCopies(shown, IndirectData, number + 1, count - 1, shown.size, 0, fields);
+    const std::int64_t last = dataAddress + count - 1;
+    if (last > first.maximum.number.value_or(last))
+        say(path, QStringLiteral("indirect: initial value %1 lies outside the range").arg(last));
+    number += count;
 }
 
-void TableBuilder::add(const QString &name, const QJsonObject &json, std::vector<Field> &fields)
+void TableBuilder::add(const QString &name, const QString &key, const QJsonObject &json, std::vector<Field> &fields)
 {
     if (static_cast<int>(fields.size()) >= MostRegisters)
-        return say(QStringLiteral("more than %1 registers").arg(MostRegisters));
+        return say({}, QStringLiteral("more than %1 registers").arg(MostRegisters));
     FieldReader reader(m_context);
     fields.push_back(reader.read(name, json));
-    if (!reader.wrong().isEmpty())
-        say(reader.wrong());
+    if (reader.wrong().isEmpty())
+        return;
+    say(key == Indirect ? QStringList{Indirect} : QStringList{Registers, key} + reader.wrongPath(), reader.wrong());
 }
 
-void TableBuilder::checkTogether(std::vector<Field> &fields)
+void TableBuilder::checkTogether(const std::vector<Field> &fields)
 {
     if (fields.empty())
-        return say(QStringLiteral("no registers at firmware %1").arg(m_context.firmware));
-    std::stable_sort(
-        fields.begin(), fields.end(), [](const Field &a, const Field &b) { return a.address < b.address; });
+        return say({}, QStringLiteral("no registers at firmware %1").arg(m_context.firmware));
     for (std::size_t i = 1; i < fields.size(); ++i) {
-        if (fields[i].address < fields[i - 1].end())
-            return say(QStringLiteral("%1: overlaps %2 at address %3")
-                           .arg(fields[i].name, fields[i - 1].name)
-                           .arg(fields[i].address));
+        if (fields[i].address < fields[i - 1].end()) {
+            return sayOf(fields[i],
+                         QStringLiteral("overlaps %1 at address %2").arg(fields[i - 1].name).arg(fields[i].address));
+        }
     }
     checkNames(fields);
 }
 
-void TableBuilder::checkNames(std::vector<Field> &fields)
+void TableBuilder::checkNames(const std::vector<Field> &fields)
 {
     QStringList names;
     std::vector<std::pair<QString, QString>> plain;
@@ -228,46 +386,39 @@ void TableBuilder::checkNames(std::vector<Field> &fields)
     std::sort(plain.begin(), plain.end());
     for (std::size_t i = 1; i < plain.size(); ++i) {
         if (plain[i].first == plain[i - 1].first)
-            return say(QStringLiteral("%1 and %2 are one name").arg(plain[i - 1].second, plain[i].second));
+            return say({Registers, plain[i].second},
+                       QStringLiteral("%1 and %2 are one name").arg(plain[i - 1].second, plain[i].second));
     }
-    const QJsonObject definitions = m_settings.value(u"definitions").toObject();
-    for (Field &field : fields) {
-        checkBound(field, field.minimum, names);
-        checkBound(field, field.maximum, names);
-        for (const Alternate &alternate : field.alternates) {
-            checkBound(field, alternate.minimum, names);
-            checkBound(field, alternate.maximum, names);
+    for (const Field &field : fields) {
+        checkBound(field, field.minimum, names, {});
+        checkBound(field, field.maximum, names, {});
+        for (std::size_t i = 0; i < field.alternates.size(); ++i) {
+            const QStringList path{QStringLiteral("alternates"), QString::number(i)};
+            checkBound(field, field.alternates[i].minimum, names, path);
+            checkBound(field, field.alternates[i].maximum, names, path);
         }
-        // What is defined but not in this model is no mistake; what nobody knows is.
-        for (const QString &reset : field.resets) {
-            if (!m_context.registers.contains(reset) && !definitions.contains(reset))
-                say(QStringLiteral("%1: resets %2, which is no register").arg(field.name, reset));
-        }
-        field.resets.removeIf([&](const QString &reset) { return !names.contains(reset); });
+        checkResets(field);
     }
 }
 
-void TableBuilder::checkBound(const Field &field, const Bound &bound, const QStringList &names)
+/// What is defined but not in this model is no mistake; what nobody knows is.
+void TableBuilder::checkResets(const Field &field)
+{
+    if (field.resets.isEmpty())
+        return;
+    const QJsonObject definitions = m_settings.value(u"definitions").toObject();
+    for (const QString &reset : field.resets) {
+        if (!m_context.registers.contains(reset) && !definitions.contains(reset))
+            say({Registers, field.name, QStringLiteral("resets")},
+                QStringLiteral("%1: resets %2, which is no register").arg(field.name, reset));
+    }
+}
+
+void TableBuilder::checkBound(const Field &field, const Bound &bound, const QStringList &names, const QStringList &path)
 {
     if (!bound.reg.isEmpty() && (bound.reg == field.name || !names.contains(bound.reg)))
-        say(QStringLiteral("%1: limited by %2, which is no other register").arg(field.name, bound.reg));
-}
-
-std::int64_t TableBuilder::numberIn(
-    const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QString &where)
-{
-    const std::optional<std::int64_t> number = wholeNumber(json.value(key));
-    if (number && *number >= low && *number <= high)
-        return *number;
-    const QString place = where.isEmpty() ? QString() : where + QStringLiteral(": ");
-    say(QStringLiteral("%1\"%2\" must be a whole number from %3 to %4").arg(place, key).arg(low).arg(high));
-    return low;
-}
-
-void TableBuilder::say(const QString &what)
-{
-    if (m_wrong.isEmpty())
-        m_wrong = m_model + QStringLiteral(": ") + what;
+        say(QStringList{Registers, field.name} + path + QStringList{QStringLiteral("range")},
+            QStringLiteral("%1: limited by %2, which is no other register").arg(field.name, bound.reg));
 }
 
 } // namespace dynascope

@@ -3,6 +3,7 @@
 
 #include "core/table/controltable.h"
 #include "core/table/fieldreader.h"
+#include "core/table/tablefault.h"
 
 #include <QJsonObject>
 
@@ -16,37 +17,46 @@ public:
     /// `settings`: a file with all that it extends, and the model's own changes, "number" and "manual" among them.
     TableBuilder(QString model, QJsonObject settings);
 
-    std::vector<ControlTablePtr> build();
-    int newestFirmware() const { return m_newestFirmware; }
+    /// Where the table changes: 0, each first firmware of something new or gone, and one past the newest there can be.
+    const std::vector<int> &steps() const { return m_steps; }
+    /// The table from one step to the next; nullptr where something is wrong. Where registers are known to fit together
+    /// that isn't looked for.
+    ControlTablePtr build(int from, int to, bool isKnownSound);
     const ControlTable::Description &description() const { return m_common; }
-    /// What is wrong, beginning with the model's name; empty where nothing is.
-    const QString &wrong() const { return m_wrong; }
+    /// What is wrong: its text begins with the model's name, its path with the keys of a model's entry.
+    const TableFault &fault() const { return m_fault; }
 
 private:
     void readModel();
+    void readAbilities();
+    void readGear();
     void readBaudRates();
     int readFirmware(const QString &key);
-    std::vector<int> firmwareSteps();
-    void collectSteps(const QJsonValue &value, const QString &where, std::vector<int> &steps);
-    ControlTablePtr buildFor(int from, int to);
+    void readSteps();
+    void collectSteps(const QJsonObject &json, const QStringList &path, std::vector<int> &steps);
     void readRegisters(std::vector<Field> &fields);
     void readNumbered(const QString &name, const QJsonObject &json, std::vector<Field> &fields);
     void readIndirect(std::vector<Field> &fields);
     void readIndirectBlock(const QJsonObject &block, const QJsonValue &range, int &number, std::vector<Field> &fields);
-    void add(const QString &name, const QJsonObject &json, std::vector<Field> &fields);
-    void checkTogether(std::vector<Field> &fields);
-    void checkNames(std::vector<Field> &fields);
-    void checkBound(const Field &field, const Bound &bound, const QStringList &names);
+    void add(const QString &name, const QString &key, const QJsonObject &json, std::vector<Field> &fields);
+    void addCopies(const Field &first, const QString &name, int from, int count, int stride, int initialStep,
+        std::vector<Field> &fields);
+    void checkTogether(const std::vector<Field> &fields);
+    void checkNames(const std::vector<Field> &fields);
+    void checkResets(const Field &field);
+    void checkBound(const Field &field, const Bound &bound, const QStringList &names, const QStringList &path);
+    bool exists(const QJsonObject &json) const;
     std::int64_t numberIn(
-        const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QString &where);
-    void say(const QString &what);
+        const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QStringList &path);
+    void say(const QStringList &path, const QString &what);
+    void sayOf(const Field &field, const QString &what);
 
     QString m_model;
     QJsonObject m_settings;
     ControlTable::Description m_common; ///< but for the registers and the range of firmware
     FieldReader::Context m_context;
-    int m_newestFirmware = 0;
-    QString m_wrong;
+    std::vector<int> m_steps;
+    TableFault m_fault;
 };
 
 } // namespace dynascope

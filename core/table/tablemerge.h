@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QJsonObject>
-#include <QString>
+#include "core/table/tablefault.h"
 
-/// How a file and what it extends become one set of settings (FORMAT.md, "How files build on each other").
+#include <QJsonObject>
+
+/// How table files build on each other (resources/controltables/FORMAT.md, "How files build on each other").
 namespace dynascope {
 
-/// What is wrong with the keys of one file, before anything is merged: unknown keys, objects that are none. Empty where
-/// nothing is.
-QString wrongKeys(const QJsonObject &file);
+/// Unknown keys and wrong kinds of values, in `file` as it was read.
+TableFault wrongKeys(const QJsonObject &file);
 
-/// `base` changed by `changes`: objects are merged key by key, null removes, everything else replaces. A register that
-/// is new starts from its definition. On failure `wrong` says what it is.
-QJsonObject merged(const QJsonObject &base, const QJsonObject &changes, QString *wrong);
+/// `changes` laid over `base`: the variants that they use first, objects merged, null removes, all else replaces.
+/// Registers that `base` doesn't have start from its definitions. `path` is where `changes` stands in its file.
+QJsonObject merged(const QJsonObject &base, const QJsonObject &changes, const QStringList &path, TableFault *fault);
 
 } // namespace dynascope

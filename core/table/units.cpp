@@ -8,23 +8,76 @@
 namespace dynascope {
 namespace {
 
-/// One raw step in the shown unit.
-double step(const EffectiveField &field, int resolution, AngleUnit angle)
+struct UnitName {
+    const char16_t *name;
+    Unit unit;
+};
+
+/// In table files.
+constexpr UnitName UnitNames[] = {
+    {u"", Unit::None},
+    {u"pulse", Unit::Pulse},
+    {u"deg", Unit::Degree},
+    {u"rev/min", Unit::RevPerMin},
+    {u"rev/min2", Unit::RevPerMin2},
+    {u"mA", Unit::MilliAmpere},
+    {u"A", Unit::Ampere},
+    {u"%", Unit::Percent},
+    {u"V", Unit::Volt},
+    {u"degC", Unit::Celsius},
+    {u"us", Unit::Microsecond},
+    {u"ms", Unit::Millisecond},
+    {u"mV/ms", Unit::MilliVoltPerMs},
+    {u"Hz", Unit::Hertz},
+    {u"pulse/s", Unit::PulsePerSec},
+    {u"pulse/ms", Unit::PulsePerMs},
+};
+
+bool isAngle(Unit unit)
 {
-    if (field.unit != Unit::Pulse || angle == AngleUnit::Pulses)
-        return field.scale;
-    const double turn = angle == AngleUnit::Degrees ? 360.0 : 2.0 * std::numbers::pi;
-    return field.scale * turn / std::max(1, resolution);
+    return unit == Unit::Pulse || unit == Unit::Degree;
 }
 
-/// The fewest decimals whose last digit is no coarser than one raw step.
+bool isShownAsTorque(const EffectiveField &field, const UnitPreferences &units)
+{
+    return units.torque && field.torqueConstant > 0 && (field.unit == Unit::MilliAmpere || field.unit == Unit::Ampere);
+}
+
+double turn(AngleUnit angle)
+{
+    return angle == AngleUnit::Degrees ? 360.0 : angle == AngleUnit::Radians ? 2.0 * std::numbers::pi : 1.0;
+}
+
+/// One raw step in the shown unit.
+double step(const EffectiveField &field, int resolution, const UnitPreferences &units)
+{
+    if (units.raw || (isAngle(field.unit) && units.angle == AngleUnit::Pulses))
+        return field.unit == Unit::Pulse && !units.raw ? field.scale : 1.0;
+    if (isShownAsTorque(field, units))
+        return field.torqueConstant;
+    if (field.unit == Unit::Degree)
+        return field.scale * turn(units.angle) / 360.0;
+    if (field.unit == Unit::Pulse)
+        return field.scale * turn(units.angle) / (std::max(1, resolution) * field.turns);
+    return field.scale;
+}
+
+/// The fewest decimals whose last digit is finer than one raw step, or just as fine.
 int decimalsFor(double step)
 {
+    constexpr double Same = 1e-9, Finer = 0.95; // no double is a tenth; and neighbours stay apart after rounding
+    const double size = std::abs(step);
     int decimals = 0;
-    // The small allowance takes 0.1 for a tenth, though no double is one.
-    for (double digit = 1.0; digit > std::abs(step) * (1 + 1e-9) && decimals < 9; digit /= 10)
-        ++decimals;
+    for (double digit = 1.0; decimals < 9; digit /= 10, ++decimals) {
+        if (digit <= size * Finer || std::abs(digit - size) <= size * Same)
+            break;
+    }
     return decimals;
+}
+
+std::int64_t directionMask(const EffectiveField &field)
+{
+    return std::int64_t(1) << field.directionBit;
 }
 
 const EnumValue *named(const std::vector<EnumValue> &values, std::int64_t raw)
@@ -60,7 +113,9 @@ QString bitsMeaning(const Field &field, std::int64_t raw)
 
 QString fixed(const Physical &shown)
 {
-    return QString::number(shown.value, 'f', shown.decimals);
+    const QString digits = QString::number(std::abs(shown.value), 'f', shown.decimals);
+    // Also of −0, which is another raw value than 0.
+    return std::signbit(shown.value) ? u'-' + digits : digits;
 }
 
 QString listed(const std::vector<EnumValue> &values)
@@ -83,20 +138,50 @@ QString likelyMeant(const std::vector<EnumValue> &values, std::int64_t raw)
 
 } // namespace
 
-Physical physical(const EffectiveField &field, int resolution, std::int64_t raw, AngleUnit angle)
+Physical physical(const EffectiveField &field, int resolution, std::int64_t raw, const UnitPreferences &units)
 {
-    const double one = step(field, resolution, angle);
-    return {static_cast<double>(raw) * one, unitSymbol(field.unit, angle), decimalsFor(one)};
+    const double one = step(field, resolution, units);
+    double value = static_cast<double>(raw);
+    if (field.directionBit >= 0 && !units.raw) {
+        const std::int64_t direction = directionMask(field);
+        value = static_cast<double>(raw & ~direction);
+        if ((raw & direction) != 0)
+            value = -value;
+    }
+    return {value * one, unitSymbol(field, units), decimalsFor(one)};
 }
 
-std::int64_t rawFromPhysical(const EffectiveField &field, int resolution, double value, AngleUnit angle)
+std::int64_t rawFromPhysical(const EffectiveField &field, int resolution, double value, const UnitPreferences &units)
 {
     // Wide enough for every register, and exact in a double.
     constexpr double Largest = 1e15;
-    const double raw = value / step(field, resolution, angle);
-    if (std::isnan(raw))
+    const double steps = value / step(field, resolution, units);
+    if (std::isnan(steps))
         return 0;
-    return std::llround(std::clamp(raw, -Largest, Largest));
+    const std::int64_t raw = std::llround(std::clamp(steps, -Largest, Largest));
+    if (field.directionBit < 0 || units.raw)
+        return raw;
+    const std::int64_t direction = directionMask(field);
+    std::int64_t magnitude = std::abs(raw);
+    if ((magnitude & direction) != 0)
+        magnitude = direction - 1; // there is no room for more
+    return std::signbit(steps) ? magnitude | direction : magnitude;
+}
+
+std::pair<Physical, Physical> physicalRange(
+    const EffectiveField &field, int resolution, std::int64_t low, std::int64_t high, const UnitPreferences &units)
+{
+    if (field.directionBit < 0 || units.raw || high < directionMask(field))
+        return {physical(field, resolution, low, units), physical(field, resolution, high, units)};
+    const std::int64_t most = directionMask(field) - 1;
+    return {physical(field, resolution, most | directionMask(field), units), physical(field, resolution, most, units)};
+}
+
+QString unitSymbol(const EffectiveField &field, const UnitPreferences &units)
+{
+    if (units.raw)
+        return {};
+    return isShownAsTorque(field, units) ? QStringLiteral("Nm") : unitSymbol(field.unit, units.angle);
 }
 
 QString unitSymbol(Unit unit, AngleUnit angle)
@@ -104,18 +189,26 @@ QString unitSymbol(Unit unit, AngleUnit angle)
     switch (unit) {
     case Unit::None: return {};
     case Unit::Pulse:
-        return angle == AngleUnit::Degrees ? QStringLiteral("°")
-            : angle == AngleUnit::Radians  ? QStringLiteral("rad")
-                                           : QStringLiteral("pulse");
+    case Unit::Degree: break;
     case Unit::RevPerMin: return QStringLiteral("rev/min");
     case Unit::RevPerMin2: return QStringLiteral("rev/min²");
     case Unit::MilliAmpere: return QStringLiteral("mA");
+    case Unit::Ampere: return QStringLiteral("A");
     case Unit::Percent: return QStringLiteral("%");
     case Unit::Volt: return QStringLiteral("V");
     case Unit::Celsius: return QStringLiteral("°C");
     case Unit::Microsecond: return QStringLiteral("µs");
     case Unit::Millisecond: return QStringLiteral("ms");
     case Unit::MilliVoltPerMs: return QStringLiteral("mV/ms");
+    case Unit::Hertz: return QStringLiteral("Hz");
+    case Unit::PulsePerSec: return QStringLiteral("pulse/s");
+    case Unit::PulsePerMs: return QStringLiteral("pulse/ms");
+    }
+    switch (angle) {
+    case AngleUnit::Degrees: return QStringLiteral("°");
+    case AngleUnit::Radians: return QStringLiteral("rad");
+    case AngleUnit::Pulses: return QStringLiteral("pulse");
+    case AngleUnit::Turns: return QStringLiteral("turn");
     }
     return {};
 }
@@ -123,12 +216,26 @@ QString unitSymbol(Unit unit, AngleUnit angle)
 QString unitId(Unit unit)
 {
     switch (unit) {
-    case Unit::Pulse: return QStringLiteral("deg");
+    case Unit::Pulse:
+    case Unit::Degree: return QStringLiteral("deg");
     case Unit::RevPerMin2: return QStringLiteral("rev/min2");
     case Unit::Celsius: return QStringLiteral("degC");
     case Unit::Microsecond: return QStringLiteral("us");
     default: return unitSymbol(unit);
     }
+}
+
+QString tableUnit(Unit unit)
+{
+    const auto *const found = std::ranges::find(UnitNames, unit, &UnitName::unit);
+    return QString::fromUtf16(found->name);
+}
+
+std::optional<Unit> unitFromTable(QStringView name)
+{
+    const auto *const found
+        = std::ranges::find_if(UnitNames, [&](const UnitName &unit) { return name == QStringView(unit.name); });
+    return found == std::end(UnitNames) || name.isEmpty() ? std::nullopt : std::optional(found->unit);
 }
 
 QString meaning(const Field &field, std::int64_t raw)
@@ -141,14 +248,14 @@ QString meaning(const Field &field, std::int64_t raw)
 }
 
 QString valueText(
-    const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw, AngleUnit angle)
+    const Field &field, const EffectiveField &effective, int resolution, std::int64_t raw, const UnitPreferences &units)
 {
     const QString name = meaning(field, raw);
     if (!name.isEmpty())
         return name;
-    if (effective.unit == Unit::None)
+    if (effective.unit == Unit::None || units.raw)
         return QString::number(raw);
-    const Physical shown = physical(effective, resolution, raw, angle);
+    const Physical shown = physical(effective, resolution, raw, units);
     return fixed(shown) + u' ' + shown.unit;
 }
 
@@ -158,7 +265,7 @@ Result<void> checkRange(const Field &field, const EffectiveField &effective, std
 }
 
 Result<void> checkRange(
-    const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution, AngleUnit angle)
+    const Field &field, const EffectiveField &effective, std::int64_t raw, int resolution, const UnitPreferences &units)
 {
     if (!field.values.empty() && !named(field.values, raw)) {
         return failure(ErrorKind::InvalidArgument,
@@ -171,10 +278,10 @@ Result<void> checkRange(
         return {};
     QString value = QString::number(raw);
     QString range = QStringLiteral("%1 to %2").arg(low).arg(high);
-    if (!unitSymbol(effective.unit, angle).isEmpty() && unitSymbol(effective.unit, angle) != u"pulse") {
-        const Physical from = physical(effective, resolution, low, angle);
-        const Physical to = physical(effective, resolution, high, angle);
-        const Physical wanted = physical(effective, resolution, raw, angle);
+    const QString symbol = unitSymbol(effective, units);
+    if (!symbol.isEmpty() && symbol != u"pulse") {
+        const auto [from, to] = physicalRange(effective, resolution, low, high, units);
+        const Physical wanted = physical(effective, resolution, raw, units);
         value += QStringLiteral(" (%1 %2)").arg(fixed(wanted), wanted.unit);
         range += QStringLiteral(" (%1 to %2 %3)").arg(fixed(from), fixed(to), to.unit);
     }

@@ -84,19 +84,20 @@ private slots:
         QTest::addColumn<QString>("from");
         QTest::addColumn<QString>("to");
         QTest::addColumn<QString>("message");
-        const auto row = [](const char *from, const char *to, const char *message) {
+        QTest::addColumn<int>("line"); // 0: the one that was damaged; -1: none
+        const auto row = [](const char *from, const QByteArray &to, const char *message, int line = 0) {
             QTest::addRow("%s", message) << QString::fromUtf8(from) << QString::fromUtf8(to)
-                                         << QStringLiteral("t.json: ") + QString::fromUtf8(message);
+                                         << QString::fromUtf8(message) << line;
         };
         // The file
-        row("\"format\": 1", "\"format\": 2", "\"format\" must be 1");
-        row("\"format\": 1,", "", "\"format\" must be 1");
+        row("\"format\": 1", "\"format\": 3", "\"format\" must be 1 or 2");
+        row("\"format\": 1,", "", "\"format\" must be 1 or 2", -1);
         row("\"format\": 1", "\"format\": 1, \"colour\": 3", "unknown key \"colour\"");
         row("\"format\": 1", "\"format\": 1, \"extends\": \"x\"", "extends \"x\", which is not there");
         row("\"series\": \"T\"", "\"series\": \"T\", \"series\": \"U\"", "line 3: \"series\" stands twice");
         row("\"series\": \"T\"", "\"ser\\u0069es\": \"T\"", "line 3: a key with an escape in it");
         row("\"series\": \"T\",", "\"series\": \"T\"", "line 4: not JSON (unterminated object)");
-        row("\"series\": \"T\",", "", "T-1: \"series\" is missing");
+        row("\"series\": \"T\",", "", "T-1: \"series\" is missing", 31);
         row("\"resolution\": 4096", "\"resolution\": 0",
             "T-1: \"resolution\" must be a whole number from 1 to 100000000");
         row("\"resolution\": 4096", "\"resolution\": 1.5",
@@ -106,9 +107,8 @@ private slots:
         row("\"fastReadsSince\": 3", "\"fastReadsSince\": \"3\"",
             "T-1: \"fastReadsSince\" must be a whole number from 0 to 255");
         for (const char *bytes : {"63", "65536", "\"256\"", "256.5"}) {
-            const QByteArray with = QByteArray("\"number\": 7, \"receiveBuffer\": ") + bytes;
-            QTest::addRow("buffer %s", bytes) << QStringLiteral("\"number\": 7") << QString::fromUtf8(with)
-                << QStringLiteral("t.json: T-1: \"receiveBuffer\" must be a whole number from 64 to 65535");
+            row("\"number\": 7", QByteArray("\"number\": 7, \"receiveBuffer\": ") + bytes,
+                "T-1: \"receiveBuffer\" must be a whole number from 64 to 65535");
         }
         row("\"1\": 57600", "\"one\": 57600",
             "T-1: \"baudRates\" must be codes from 0 to 255 and rates in bits per second");
@@ -117,9 +117,9 @@ private slots:
         row("\"number\": 7", "\"number\": 7, \"extends\": \"x\"", "T-1: unknown key \"extends\"");
         row("https:", "ftp:", "T-1: \"manual\" must be an https address");
         row("\"T-1\": {", "\"t_1\": { \"number\": 8, \"manual\": \"https://example.org\" }, \"T-1\": {",
-            "t_1: this name or the number 8 is taken");
+            "T-1: this name or the number 7 is taken by t_1; \"replaces\": 7 takes its place");
         row("\"T-1\": {", "\"T-2\": { \"number\": 7, \"manual\": \"https://example.org\" }, \"T-1\": {",
-            "T-2: this name or the number 7 is taken");
+            "T-1: this name or the number 7 is taken by T-2; \"replaces\": 7 takes its place");
         row("\"models\": {", "\"models\": [], \"model\": {", "unknown key \"model\"");
         row("{ \"number\": 7, \"manual\": \"https://example.org/t-1\" }", "7", "\"T-1\" must be an object");
         // Merging
@@ -128,7 +128,7 @@ private slots:
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Old\": { \"since\": null } }",
             "T-1: Old: since is removed, but isn't there");
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Limit\": null }",
-            "T-1: Goal: limited by Limit, which is no other register");
+            "T-1: Goal: limited by Limit, which is no other register", 23);
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Typo\": { \"initial\": 3 } }",
             "T-1: Typo: \"size\" must be 1, 2 or 4");
         // Registers
@@ -137,8 +137,8 @@ private slots:
         row("\"address\": 0,", "\"address\": 65535,",
             "T-1: Model Number: \"address\" must be a number from 0 to 65534");
         row("\"address\": 0,", "\"address\": -1,", "T-1: Model Number: \"address\" must be a number from 0 to 65534");
-        row("\"address\": 8,", "\"address\": 11,", "T-1: Mode: overlaps Baud Rate at address 11");
-        row("\"address\": 20,", "\"address\": 62,", "T-1: Goal: overlaps Limit at address 64");
+        row("\"address\": 8,", "\"address\": 11,", "T-1: Mode: overlaps Baud Rate at address 11", 17);
+        row("\"address\": 20,", "\"address\": 62,", "T-1: Goal: overlaps Limit at address 64", 23);
         row("\"address\": 90,", "\"address\": 92,", "T-1: Indirect Address 2: overlaps Indirect Data 1 at address 94");
         row("\"size\": 2, \"area\": \"EEPROM\"", "\"size\": 3, \"area\": \"EEPROM\"",
             "T-1: Model Number: \"size\" must be 1, 2 or 4");
@@ -162,12 +162,36 @@ private slots:
         row("\"-Limit\"", "\"-Limits\"", "T-1: Goal: limited by Limits, which is no other register");
         row("\"-Limit\"", "\"Goal\"", "T-1: Goal: limited by Goal, which is no other register");
         row("\"pulse\"", "\"furlong\"", "T-1: Goal: unknown unit \"furlong\"");
-        row("\"scale\": 2", "\"scale\": 0", "T-1: Goal: \"scale\" must be a number above 0");
+        row("\"scale\": 2", "\"scale\": 0",
+            "T-1: Goal: \"scale\" must be a number above 0, or the name of one of \"scales\"");
         row("\"help\": \"Bounds.\"", "\"help\": \"Bounds.\", \"scale\": 2", "T-1: Limit: \"scale\" without \"unit\"");
         row("\"help\": \"Bounds.\"", "\"help\": 5", "T-1: Limit: \"help\" must be a text of at most 600 characters");
         row("\"Limit\": {", "\" Limit\": {", "T-1:  Limit: not a name for a register");
         row("\"Port #\": { \"address\": 72, \"count\": 3,", "\"li-mit\": { \"address\": 72,",
             "T-1: Limit and li-mit are one name");
+        // Format 2
+        row("\"series\": \"T\"", "\"series\": \"T\", \"uses\": [\"brake\"]", "uses \"brake\", which is no variant");
+        row("\"series\": \"T\"", "\"series\": \"T\", \"uses\": \"brake\"", "\"uses\" must be a list of texts");
+        row("\"series\": \"T\"", "\"series\": \"T\", \"uses\": [\"v\"], \"variants\": { \"v\": { \"registers\": { \"X\": null } } }",
+            "X is removed, but isn't there");
+        row("\"series\": \"T\"", "\"series\": \"T\", \"variants\": { \"v\": { \"series\": \"U\" } }",
+            "v: unknown key \"series\"");
+        row("\"number\": 7", "\"number\": 7, \"gearRatio\": [\"Limit\", \"Gone\"]",
+            "T-1: \"gearRatio\" must be two registers");
+        row("\"number\": 7", "\"number\": 7, \"torqueConstant\": -1", "T-1: \"torqueConstant\" must be a number above 0");
+        row("\"number\": 7", "\"number\": 7, \"replaces\": 8",
+            "T-1: \"replaces\" must be the number of this model and of one that is there");
+        row("\"number\": 7", "\"number\": 7, \"axes\": 0", "T-1: \"axes\" must be a whole number from 1 to 8");
+        row("\"resolution\": 4096,", "", "T-1: Goal: counts in pulses, but \"resolution\" is missing", 23);
+        row("\"scale\": 2", "\"scale\": \"fast\"", "T-1: Goal: \"scales\" has no \"fast\"");
+        row("\"help\": \"Bounds.\"", "\"help\": \"Bounds.\", \"directionBit\": 32",
+            "T-1: Limit: \"directionBit\" must be a bit above the lowest of an unsigned register");
+        row("\"help\": \"Bounds.\"", "\"help\": \"Bounds.\", \"doubt\": 1",
+            "T-1: Limit: \"doubt\" must be a text of at most 600 characters");
+        row("\"help\": \"Bounds.\"", "\"help\": \"Bounds.\", \"special\": \"codes\"",
+            "T-1: Limit: \"special\" must be an object, \"baud rates\" or one of \"valueLists\"");
+        row("\"count\": 3,", "\"count\": 3, \"stride\": 0,", "T-1: Port #: \"stride\" must be a whole number from 1 to 256");
+        row("\"count\": 3,", "\"count\": 3, \"stride\": 1,", "T-1: Port 2: overlaps Port 1 at address 73");
         // Values, bits, alternates
         row("\"3\": \"Joint\"", "\"x\": \"Joint\"", "T-1: Mode: \"x\" is not a whole number");
         row("\"3\": \"Joint\"", "\"03\": \"Joint\"", "T-1: Mode: \"03\" is not a whole number");
@@ -178,7 +202,7 @@ private slots:
         row("\"Joint\"", "3", "T-1: Mode: \"\" is not a name: 1 to 80 characters, no + and no comma");
         row("{ \"3\": \"Joint\", \"4\": \"Wheel\" }", "[1]", "Mode: \"values\" must be an object");
         row("\"values\": \"baud rates\"", "\"values\": \"bauds\"",
-            "T-1: Baud Rate: \"values\" must be an object or \"baud rates\"");
+            "T-1: Baud Rate: \"values\" must be an object, \"baud rates\" or one of \"valueLists\"");
         row("{ \"bit\": 0 }", "0", "T-1: Flags: bit \"First\" must be an object");
         row("{ \"bit\": 0 }", "{ \"bit\": 8 }",
             "T-1: Flags: \"First\" needs \"bit\": n or \"bits\": [first, last] within the register");
@@ -220,7 +244,13 @@ private slots:
         QVERIFY(at >= 0);
         text.replace(at, from.size(), to);
         const Error error = errorOf(text.toUtf8());
-        QTEST(error.text, "message");
+        QFETCH(QString, message);
+        QFETCH(int, line);
+        if (line == 0)
+            line = int(QStringView(text).first(at).count(u'\n')) + 1;
+        if (line > 0 && !message.startsWith(u"line "))
+            message.prepend(QStringLiteral("line %1: ").arg(line));
+        QCOMPARE(error.text, QStringLiteral("t.json: ") + message);
         QCOMPARE(error.kind, ErrorKind::BadFile);
     }
 

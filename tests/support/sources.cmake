@@ -8,7 +8,7 @@ target_sources(dynascope_test_support PRIVATE
     support/hex.cpp support/hex.h
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
-    support/otherseries.h
+    support/tablefacts.cpp support/tablefacts.h
     support/servobench.h
     support/sessionfixture.h
     support/simclient.h

@@ -28,13 +28,7 @@ struct TableFixture {
     /// A servo with the values it leaves the factory with.
     Device *add(int id, int model = 1020)
     {
-        ControlTablePtr table = catalog().find(model, 45);
-        if (!table) {
-            ControlTable::Description unknown;
-            unknown.modelNumber = static_cast<std::uint16_t>(model);
-            unknown.model = QStringLiteral("unknown model %1").arg(model);
-            table = std::make_shared<ControlTable>(unknown);
-        }
+        ControlTablePtr table = catalog().findOrRaw(model, 45);
         Found found;
         found.id = static_cast<std::uint8_t>(id);
         found.baudRate = 1000000;

@@ -19,6 +19,7 @@ Section sectionOf(const Field &field)
     switch (field.area) {
     case Area::Eeprom: return Eeprom;
     case Area::Hybrid: return Hybrid;
+    case Area::Unknown:
     case Area::Ram: break;
     }
     return Ram;

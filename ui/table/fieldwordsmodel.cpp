@@ -31,6 +31,8 @@ QString rangeText(const EffectiveField &effective)
 
 QString accessText(const Field &field)
 {
+    if (field.mayBeTried())
+        return FieldWordsModel::tr("access not known");
     return field.isWritable() ? FieldWordsModel::tr("read and write") : FieldWordsModel::tr("read only");
 }
 
@@ -58,7 +60,10 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
     case ColumnKind::Address: return field->address;
     case ColumnKind::Default: return field->initial ? QVariant(static_cast<qlonglong>(*field->initial)) : QVariant();
     case ColumnKind::Range: return rangeText(QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
-    case ColumnKind::Access: return field->isWritable() ? QStringLiteral("RW") : QStringLiteral("R");
+    case ColumnKind::Access:
+        return field->mayBeTried() ? QStringLiteral("?")
+            : field->isWritable()  ? QStringLiteral("RW")
+                                   : QStringLiteral("R");
     default: return {};
     }
 }

@@ -22,6 +22,7 @@ QString areaText(Area area)
     switch (area) {
     case Area::Eeprom: return HelpPanel::tr("EEPROM");
     case Area::Hybrid: return HelpPanel::tr("Hybrid");
+    case Area::Unknown: return HelpPanel::tr("area not known");
     case Area::Ram: break;
     }
     return HelpPanel::tr("RAM");
