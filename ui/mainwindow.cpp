@@ -177,6 +177,11 @@ void MainWindow::connectDevices()
     connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 
+void MainWindow::warn(const QString &text)
+{
+    m_messages->post(MessageKind::Warning, text);
+}
+
 void MainWindow::connectPlots()
 {
     connect(m_table, &TablePanel::plotRequested, m_plots, &PlotArea::addTrace);

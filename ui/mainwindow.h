@@ -42,6 +42,8 @@ public:
     /// without either the welcome stays. `baudRate` 0: the one from last time.
     void connectTo(const QString &port, int baudRate);
 
+    void warn(const QString &text); ///< in the message bar
+
     void setScheme(ColorScheme scheme); ///< which one the menu ticks; applied by who asked for it
 
 signals:

@@ -4,7 +4,9 @@
 #include "app/dxl/chooseport.h"
 #include "app/dxl/commands.h"
 #include "app/dxl/interrupt.h"
+#include "app/dxl/modelscommand.h"
 #include "core/bus/seriallinefactory.h"
+#include "core/table/usertables.h"
 
 namespace dynascope::dxl {
 
@@ -30,6 +32,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Watch: return watchCommand(work);
     case Command::Write: return writeCommand(work);
     case Command::Completion:
+    case Command::Models:
     case Command::Ports:
     case Command::Sim:
     case Command::Version: break; // need no line
@@ -55,11 +58,14 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
 
 ExitCode perform(const Options &options, Output &output)
 {
-    const auto catalog = Catalog::builtIn();
+    auto catalog = Catalog::builtIn();
     if (!catalog)
         return output.fail(catalog.error());
+    for (const Error &refused : addUserTables(*catalog, userTablesFolder()).refused)
+        output.note(refused.text);
     switch (options.command) {
     case Command::Completion: return completionCommand(*catalog, options);
+    case Command::Models: return modelsCommand(*catalog, options.models, output);
     case Command::Ports: return portsCommand(output);
     case Command::Sim: return simCommand(*catalog, options, output);
     case Command::Version: return versionCommand(output);

@@ -100,6 +100,7 @@ void understandWords(Options &options, const Typed &typed)
                                                    : ResetOption::AllButIdAndBaud;
     options.clear = typed.option == "error" ? ClearOption::Error : ClearOption::Position;
     options.backup = typed.option == "restore" ? BackupOption::Restore : BackupOption::Store;
+    options.models = typed.models;
     options.shell = QString::fromStdString(typed.shell);
     options.model = QString::fromStdString(typed.model.value_or(std::string()));
     options.sweep = typed.sweep;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/modelsarguments.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -25,6 +26,7 @@ enum class Command {
     Completion,
     Info,
     Led,
+    Models,
     Packet,
     Ping,
     Ports,
@@ -79,6 +81,7 @@ struct Options {
     std::optional<int> listen; ///< ms
     // completion
     QString shell;
+    ModelsArguments models;
     SimOptions sim;
 };
 

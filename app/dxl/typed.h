@@ -28,6 +28,7 @@ struct Typed {
     bool raw = false;
     std::vector<std::string> registers, words;
     SimArguments sim;
+    ModelsArguments models;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual
@@ -40,6 +41,7 @@ void describeFinding(CLI::App &app, Typed &typed);   ///< ports, scan, ping, inf
 void describeRegisters(CLI::App &app, Typed &typed); ///< table, read, write, watch, stats
 void describeActions(CLI::App &app, Typed &typed);   ///< torque, led, reboot, reset, clear, backup, stop
 void describePacket(CLI::App &app, Typed &typed);
+void describeModels(CLI::App &app, ModelsArguments &typed);
 void addIds(CLI::App &command, Typed &typed); ///< the devices, as a positional argument
 /// @}
 

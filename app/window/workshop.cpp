@@ -39,6 +39,7 @@ QString schemeName(ColorScheme scheme)
 Workshop::Workshop(QApplication &application, const WindowOptions &options)
     : m_application(application)
     , m_catalog(loadCatalog())
+    , m_tables(addUserTables(m_catalog, userTablesFolder()))
     , m_lines(m_catalog)
     , m_session(m_lines, m_catalog)
     , m_commands(m_session)
@@ -49,6 +50,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     m_window = std::make_unique<MainWindow>(
         Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines});
     m_window->setScheme(storedScheme());
+    for (const Error &refused : m_tables.refused)
+        m_window->warn(refused.text);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
                      [this](ColorScheme scheme) { applyScheme(scheme); });
     QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {

@@ -6,6 +6,7 @@
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
 #include "core/session/monitor.h"
+#include "core/table/usertables.h"
 #include "ui/mainwindow.h"
 
 class QApplication;
@@ -33,6 +34,7 @@ public:
 private:
     QApplication &m_application;
     Catalog m_catalog;
+    UserTables m_tables; ///< what came of a person's own
     Lines m_lines;
     Session m_session;
     Commands m_commands;

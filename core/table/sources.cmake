@@ -1,5 +1,6 @@
 target_sources(dynascope_core PRIVATE
     table/catalog.cpp table/catalog.h
+    table/cellrows.cpp table/cellrows.h
     table/controltable.cpp table/controltable.h
     table/field.h
     table/fieldreader.cpp table/fieldreader.h table/fieldreader_values.cpp
@@ -11,9 +12,12 @@ target_sources(dynascope_core PRIVATE
     table/tablebuilder.cpp table/tablebuilder.h
     table/tablefault.h
     table/tablefile.cpp table/tablefile.h
+    table/tableimport.cpp table/tableimport.h
     table/tablemerge.cpp table/tablemerge.h
     table/tableoutline.cpp table/tableoutline.h
+    table/tablewriter.cpp table/tablewriter.h
     table/units.cpp table/units.h
+    table/usertables.cpp table/usertables.h
 )
 
 # A new servo is a new file: nothing has to be written here for it.

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/dxlprocess.h"
+#include "tests/support/testmain.h"
+
+#include <QDir>
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QJsonObject>
+
+using namespace Qt::StringLiterals;
+using dynascope::test::dxl;
+using dynascope::test::Outcome;
+
+/// `dxl models`: the library of control tables on the command line.
+class TestDxlModels : public QObject
+{
+    Q_OBJECT
+
+    QTemporaryDir m_folder;
+
+    QString file(const QString &name, const QByteArray &bytes)
+    {
+        QFile out(m_folder.filePath(name));
+        if (!out.open(QIODevice::WriteOnly) || out.write(bytes) != bytes.size())
+            qFatal("can't write %s", qPrintable(name));
+        return out.fileName();
+    }
+
+private slots:
+    void init() { qputenv("DYNASCOPE_TABLES", QFile::encodeName(m_folder.path())); }
+    void cleanup()
+    {
+        for (const QString &name : QDir(m_folder.path()).entryList(QDir::Files))
+            QFile::remove(m_folder.filePath(name));
+    }
+
+    void listsAll()
+    {
+        const Outcome outcome = dxl({u"models"_s});
+        QCOMPARE(outcome.code, 0);
+        QCOMPARE(outcome.out.count(u'\n'), 109);
+        QVERIFY(outcome.out.contains(u" 1020 XM430-W350"_s));
+        QVERIFY(outcome.out.contains(u" 1700 XC335-T332"_s) && outcome.out.contains(u"addresses only"_s));
+    }
+
+    void listsAllAsJson()
+    {
+        const Outcome outcome = dxl({u"--json"_s, u"models"_s, u"list"_s});
+        const QJsonArray models = QJsonDocument::fromJson(outcome.out.toUtf8()).array();
+        QCOMPARE(models.size(), 109);
+        QCOMPARE(models[0].toObject().value(u"model").toString(), u"MX-28(2.0)"_s);
+        QCOMPARE(models[0].toObject().value(u"newest_firmware").toInt(), 45);
+        QCOMPARE(models[0].toObject().value(u"file").toString(), u"mx.json"_s);
+    }
+
+    void shows_data()
+    {
+        QTest::addColumn<QString>("model");
+        QTest::addColumn<QString>("has");
+        QTest::newRow("by name") << u"xl-320"_s << u"   32  2 RAM    RW Moving Speed"_s;
+        QTest::newRow("by number") << u"1060"_s << u"XL430-W250, model number 1060"_s;
+        QTest::newRow("other name") << u"XC430-T150BB"_s << u"XC430-W150, model number 1070"_s;
+        QTest::newRow("older firmware") << u"XL330-M288/52"_s << u"firmware 46 to 52"_s;
+        QTest::newRow("newer than known") << u"XL330-M288/60"_s << u"Firmware 60 is newer than the newest known, 53"_s;
+        QTest::newRow("doubtful") << u"YM070-210-M001-RH"_s << u"(doubtful: 0.01 V in every manual"_s;
+        QTest::newRow("addresses only") << u"HX5-D20-RR"_s << u" 1149  1 ?      ?  SyncTable 1 Read Data 72"_s;
+    }
+
+    void shows()
+    {
+        QFETCH(QString, model);
+        QFETCH(QString, has);
+        const Outcome outcome = dxl({u"models"_s, u"show"_s, model});
+        QCOMPARE(outcome.code, 0);
+        QVERIFY2(outcome.out.contains(has), qPrintable(outcome.out.left(2000)));
+    }
+
+    void showsAsJson()
+    {
+        const Outcome outcome = dxl({u"--json"_s, u"models"_s, u"show"_s, u"XM430-W350"_s});
+        const QJsonObject table = QJsonDocument::fromJson(outcome.out.toUtf8()).object();
+        QCOMPARE(table.value(u"number").toInt(), 1020);
+        const QJsonObject id = table.value(u"registers").toArray().at(3).toObject();
+        QCOMPARE(id.value(u"name").toString(), u"ID"_s);
+        QCOMPARE(id.value(u"area").toString(), u"EEPROM"_s);
+        QCOMPARE(id.value(u"maximum").toString(), u"252"_s);
+    }
+
+    void refuses_data()
+    {
+        QTest::addColumn<QStringList>("arguments");
+        QTest::addColumn<int>("code");
+        QTest::addColumn<QString>("says");
+        QTest::newRow("unknown") << QStringList{u"show"_s, u"XQ1"_s} << 2 << u"no model is called XQ1"_s;
+        QTest::newRow("firmware") << QStringList{u"show"_s, u"1020/new"_s} << 2 << u"number from 0 to 255"_s;
+        QTest::newRow("no file") << QStringList{u"check"_s, u"/nowhere.json"_s} << 1 << u"/nowhere.json: "_s;
+        QTest::newRow("no model") << QStringList{u"show"_s} << 2 << u"required"_s;
+    }
+
+    void refuses()
+    {
+        QFETCH(QStringList, arguments);
+        QFETCH(QString, says);
+        const Outcome outcome = dxl(QStringList{u"models"_s} + arguments);
+        QTEST(outcome.code, "code");
+        QVERIFY2(outcome.err.contains(says), qPrintable(outcome.err));
+        QVERIFY(outcome.out.isEmpty());
+    }
+
+    void checksWithTheLine()
+    {
+        const QString bad = file(u"bad.txt"_s, "{ \"format\": 2, \"extends\": \"x330\",\n  \"registers\": {\n"
+                                               "    \"LED\": { \"unit\": \"lux\" }\n  },\n"
+                                               "  \"models\": { \"Own\": { \"number\": 9001 } } }\n");
+        const Outcome outcome = dxl({u"models"_s, u"check"_s, bad});
+        QCOMPARE(outcome.code, 1);
+        QCOMPARE(outcome.err, u"dxl: %1: line 3: Own: LED: unknown unit \"lux\"\n"_s.arg(bad));
+        const QString good = file(u"good.txt"_s, "{ \"format\": 2, \"extends\": \"x330\", "
+                                                 "\"models\": { \"Own\": { \"number\": 9001 } } }\n");
+        QCOMPARE(dxl({u"models"_s, u"check"_s, good}).out, u"%1: sound, 1 new models\n"_s.arg(good));
+    }
+
+    /// A file imported into the folder is a model at the next start.
+    void importsAndUses()
+    {
+        const QString csv =
+            file(u"xq_1.csv"_s, "address,size,name,area,access,initial\n0,2,Model Number,EEPROM,R,1999\n"
+                                "64,1,Torque Enable,RAM,RW,0\n");
+        const QString own = m_folder.filePath(u"own.json"_s);
+        const Outcome imported = dxl({u"models"_s, u"import"_s, csv, u"--out"_s, own});
+        QCOMPARE(imported.code, 0);
+        QVERIFY(imported.out.isEmpty() && imported.err.contains(u"written to "_s));
+        const Outcome again = dxl({u"models"_s, u"import"_s, csv, u"--out"_s, own});
+        QCOMPARE(again.code, 2);
+        QVERIFY(again.err.contains(u"is there already"_s));
+        QVERIFY(dxl({u"models"_s, u"show"_s, u"XQ-1"_s}).out.contains(u"   64  1 RAM    RW Torque Enable"_s));
+        QVERIFY(dxl({u"models"_s}).out.contains(u"from own.json"_s));
+        QVERIFY(dxl({u"models"_s, u"import"_s, csv}).out.startsWith(u"{\n  \"format\": 2,"_s));
+    }
+
+    void aBadFileOfOnesOwnIsSaid()
+    {
+        file(u"own.json"_s,
+             "{ \"format\": 2,\n  \"extends\": \"x330\",\n  \"models\": { \"Own\": { \"number\": 1020 } } }");
+        const Outcome outcome = dxl({u"models"_s, u"show"_s, u"1020"_s});
+        QCOMPARE(outcome.code, 0);
+        QVERIFY(outcome.out.startsWith(u"XM430-W350, "_s));
+        QVERIFY2(outcome.err.contains(u"own.json: line 3: Own: this name or the number 1020 is taken by XM430-W350"_s),
+                 qPrintable(outcome.err));
+    }
+};
+
+DYNASCOPE_CORE_TEST(TestDxlModels)
+#include "tst_dxlmodels.moc"
