@@ -69,6 +69,10 @@ Result<void> checkServoSpec(ServoSpec &spec, const Catalog &catalog)
     if (!info)
         return failure(ErrorKind::NotFound, noModel(spec.model, catalog));
     spec.model = info->model;
+    if (info->addressesOnly)
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("of %1 only the addresses are public, which is not enough to simulate it")
+                           .arg(info->model));
     const ControlTablePtr table = catalog.find(info->modelNumber, spec.firmware < 0 ? info->newestFirmware
                                                                                     : spec.firmware);
     if (!table)

@@ -154,6 +154,8 @@ devices:
     void everyModelCanBeServed()
     {
         for (const Catalog::ModelInfo &model : m_catalog.models()) {
+            if (model.addressesOnly)
+                continue;
             const auto &description = m_catalog.find(model.modelNumber, model.newestFirmware)->description();
             ServoSpec spec{model.model, -1, description.baudCodes.front().rate, 1, description.axes == 2 ? 2 : -1};
             SimulatedBus bus(m_catalog);

@@ -246,7 +246,8 @@ private slots:
         for (const Catalog::ModelInfo &info : m_catalog.models()) {
             if (info.addressesOnly)
                 continue;
-            m_bench.start(info.model);
+            const int axes = m_catalog.find(info.modelNumber, info.newestFirmware)->axes();
+            m_bench.start(info.model, -1, 57600, 1, axes == 2 ? 2 : -1);
             m_bench.servo().write(u"Torque Enable", 1);
             m_bench.wait(500ms);
             QVERIFY2(!m_bench.servo().hasAlert(), qPrintable(info.model));

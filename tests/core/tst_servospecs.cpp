@@ -30,6 +30,7 @@ private slots:
         QTest::newRow("no rate") << "XM430-W350:1" << "MODEL[/FIRMWARE]@BAUD:ID";
         QTest::newRow("no model") << "@57600:1" << "MODEL[/FIRMWARE]@BAUD:ID";
         QTest::newRow("unknown model") << "XM999@57600:1" << "XM999";
+        QTest::newRow("only its addresses are known") << "OMY-HAT@57600:1" << "only the addresses";
         QTest::newRow("only the family's name") << "xm430@57600:1" << "those that begin so: XM430-W";
         QTest::newRow("a rate it doesn't have") << "XL330-M288@4500000:1" << "4000000";
         QTest::newRow("a rate that is no number") << "XL330-M288@fast:1" << "4000000";

@@ -17,15 +17,17 @@ class ServoBench
 public:
     explicit ServoBench(const dynascope::Catalog &catalog) : m_catalog(catalog) { }
 
-    void start(const QString &model = QStringLiteral("XM430-W350"), int firmware = -1, int baud = 57600, int id = 1)
+    void start(const QString &model = QStringLiteral("XM430-W350"), int firmware = -1, int baud = 57600, int id = 1,
+               int secondId = -1)
     {
         m_bus = std::make_unique<dynascope::sim::SimulatedBus>(m_catalog);
         m_client.emplace(Client{*m_bus, baud});
-        add(model, firmware, baud, id);
+        add(model, firmware, baud, id, secondId);
     }
-    void add(const QString &model, int firmware = -1, int baud = 57600, int id = 1)
+    void add(const QString &model, int firmware = -1, int baud = 57600, int id = 1,
+             int secondId = -1)
     {
-        const auto servo = m_bus->add({model, firmware, baud, id});
+        const auto servo = m_bus->add({model, firmware, baud, id, secondId});
         QVERIFY2(servo, qPrintable(servo ? QString() : servo.error().text));
     }
     dynascope::sim::SimulatedBus &bus() { return *m_bus; }
