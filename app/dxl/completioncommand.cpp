@@ -185,7 +185,7 @@ QString fishScript(const Words &program, const std::vector<Words> &commands, con
 
 } // namespace
 
-ExitCode completionCommand(const Catalog &catalog, const Options &options)
+ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output)
 {
     CLI::App app("", "dxl");
     Typed typed;
@@ -198,7 +198,7 @@ ExitCode completionCommand(const Catalog &catalog, const Options &options)
     const QString script = options.shell == u"bash"  ? bashScript(program, commands, fields)
                            : options.shell == u"zsh" ? zshScript(program, commands, fields)
                                                      : fishScript(program, commands, fields);
-    std::printf("%s", qUtf8Printable(script));
+    output.line(script.trimmed().toUtf8());
     return ExitCode::Done;
 }
 

@@ -59,7 +59,7 @@ ExitCode perform(const Options &options, Output &output)
     if (!catalog)
         return output.fail(catalog.error());
     switch (options.command) {
-    case Command::Completion: return completionCommand(*catalog, options);
+    case Command::Completion: return completionCommand(*catalog, options, output);
     case Command::Ports: return portsCommand(output);
     case Command::Sim: return simCommand(*catalog, options, output);
     case Command::Version: return versionCommand(output);
@@ -72,7 +72,9 @@ ExitCode finalCode(const Options &options, const Output &output, ExitCode code)
 {
     if (interrupted() && (options.command != Command::Stats || code != ExitCode::Done))
         return ExitCode::Interrupted;
-    return output.isClosed() && code == ExitCode::Done ? ExitCode::Unread : code;
+    if (!output.isClosed() || code != ExitCode::Done)
+        return code;
+    return output.hasFailed() ? ExitCode::Failed : ExitCode::Unread;
 }
 
 } // namespace

@@ -47,7 +47,7 @@ ExitCode control(const SimOptions &options, Output &output)
     const QByteArray refused = "error: ";
     if (answer->startsWith(refused))
         return output.refuse({ErrorKind::InvalidArgument, QString::fromUtf8(answer->mid(refused.size()))});
-    std::printf("%s\n", answer->constData());
+    output.line(*answer);
     return ExitCode::Done;
 }
 
