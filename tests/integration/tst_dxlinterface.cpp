@@ -30,7 +30,7 @@ QString contents(const QString &path)
 /// The commands, as `dxl --help` lists them.
 QStringList commands()
 {
-    const QString list = test::dxl({u"--help"_s}).out.section(u"Subcommands:\n"_s, 1).section(u"\n\n"_s, 0, 0);
+    const QString list = test::dxl({u"--help"_s}).out.section(u"Commands:\n"_s, 1).section(u"\n\n"_s, 0, 0);
     QStringList names;
     for (const QString &line : list.split(u'\n')) {
         if (line.startsWith(u"  ") && line[2] != u' ')
@@ -70,6 +70,8 @@ private slots:
             QCOMPARE(help.code, 0);
             QCOMPARE(help.err, QString());
             QVERIFY2(help.out.contains(u"Usage: dxl "_s + name), qPrintable(help.out));
+            for (const QString &line : help.out.split(u'\n'))
+                QVERIFY2(line.size() <= 100, qPrintable(line));
         }
     }
 
