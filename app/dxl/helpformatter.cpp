@@ -47,6 +47,8 @@ std::string HelpFormatter::make_help(const CLI::App *app, std::string name, CLI:
 {
     std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
     replace(text, "\nSubcommands:\n", "\nCommands:\n");
+    if (app->get_prefix_command()) // what follows is no option of ours, and CLI11 doesn't speak of it
+        replace(text, "[OPTIONS] PATH", "PATH COMMAND...");
     replace(text, "[SUBCOMMAND]", app->get_parent() ? "[COMMAND]" : "COMMAND");
     return wrapped(text, Width, get_column_width());
 }

@@ -34,6 +34,7 @@ private slots:
     void forbiddenPort();
     void busyPort();
     void vanishedPort();
+    void controlHelpIsForPeople();
     void simTidiesUp();
     void simKeepsAFile();
     void simRefuses_data();
@@ -173,6 +174,18 @@ void TestDxlPorts::vanishedPort()
     const Outcome outcome = sim.dxl({u"ping"_s, u"1"_s});
     QCOMPARE(outcome.code, 1);
     QVERIFY2(outcome.err.contains(u"no port"), qPrintable(outcome.err));
+}
+
+void TestDxlPorts::controlHelpIsForPeople()
+{
+    const Outcome help = dxl({u"sim"_s, u"ctl"_s, u"--help"_s});
+    QVERIFY2(help.out.contains(u"Usage: dxl sim ctl PATH COMMAND...\n"), qPrintable(help.out));
+    QVERIFY2(help.out.contains(u"\n  push WHO TORQUE [SECONDS]: "), qPrintable(help.out));
+    const SimProcess sim(u"XM430-W350@57600:1"_s);
+    const Outcome lines = dxl({u"sim"_s, u"ctl"_s, sim.path(), u"help"_s});
+    QVERIFY2(lines.out.contains(u"\npush WHO TORQUE [SECONDS]: "), qPrintable(lines.out));
+    const Outcome document = dxl({u"--json"_s, u"sim"_s, u"ctl"_s, sim.path(), u"help"_s});
+    QVERIFY2(document.out.startsWith(u"[\"status: "), qPrintable(document.out));
 }
 
 void TestDxlPorts::simTidiesUp()
