@@ -117,7 +117,8 @@ Result<std::vector<int>> parseBauds(const QString &text, const std::vector<int> 
         bool ok = false;
         const int baud = part.trimmed().toInt(&ok);
         if (!ok || baud < LowestBaudRate || baud > HighestBaudRate) {
-            return wrong(QStringLiteral("\"%1\" is not a baud rate in bits per second, %2 and more: 57600,1000000 or all")
+            return wrong(QStringLiteral("\"%1\" is not a baud rate in bits per second, %2 and more: "
+                                        "57600,1000000 or all")
                              .arg(part)
                              .arg(LowestBaudRate));
         }

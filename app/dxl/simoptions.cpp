@@ -36,7 +36,8 @@ std::string footer()
 
 std::string controlFooter()
 {
-    QString text = QStringLiteral("COMMAND is one of these. WHO is an ID, ID@BAUD, #1 for the first device, its name, or all:\n");
+    QString text =
+        QStringLiteral("COMMAND is one of these. WHO is an ID, ID@BAUD, #1 for the first device, its name, or all:\n");
     for (const QString &line : sim::Control::commandHelp())
         text += QStringLiteral("  ") + line + u'\n';
     return text.toStdString();
