@@ -116,8 +116,12 @@ Result<std::vector<int>> parseBauds(const QString &text, const std::vector<int> 
     for (const QString &part : text.split(u',')) {
         bool ok = false;
         const int baud = part.trimmed().toInt(&ok);
-        if (!ok || baud < 1)
-            return wrong(QStringLiteral("\"%1\" is not a baud rate: 57600,1000000 or all").arg(part));
+        if (!ok || baud < LowestBaudRate || baud > HighestBaudRate) {
+            return wrong(QStringLiteral("\"%1\" is not a baud rate in bits per second, %2 and more: "
+                                        "57600,1000000 or all")
+                             .arg(part)
+                             .arg(LowestBaudRate));
+        }
         bauds.push_back(baud);
     }
     return bauds;

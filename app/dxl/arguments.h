@@ -9,6 +9,10 @@
 /// The small languages of the command line. Pure; errors are InvalidArgument and quote what was given.
 namespace dynascope::dxl {
 
+/// Bits per second. Devices begin at 9600; whoever types less means the register's index of a rate, and would wait long.
+constexpr int LowestBaudRate = 1200;
+constexpr int HighestBaudRate = 100'000'000;
+
 /// FIELD, ADDRESS:LENGTH, or either with =VALUE.
 struct RegisterArgument {
     QString field;   ///< as typed; empty where an address was given

@@ -39,7 +39,10 @@ Result<Assignment> prepareOne(Device &device, const RegisterArgument &argument)
         return failure(ErrorKind::InvalidArgument,
                        QStringLiteral("%1: %2 can only be read").arg(device.name(), (*field)->name));
     }
-    const auto raw = parseValue(**field, device.limits(**field), device.table()->resolution(), argument.value);
+    const auto limits = device.limits(**field);
+    if (!limits)
+        return tl::unexpected(limits.error());
+    const auto raw = parseValue(**field, *limits, device.table()->resolution(), argument.value);
     if (!raw)
         return tl::unexpected(raw.error());
     device.assume(**field, *raw); // so that it limits what is assigned after it
@@ -117,34 +120,58 @@ Result<std::vector<Assignment>> prepare(Device &device, const std::vector<Regist
     return assignments;
 }
 
-Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment)
+Result<Written> writeOne(Device &device, const Assignment &assignment)
 {
-    const int address = assignment.field ? assignment.field->address : assignment.argument.address;
-    const auto length = static_cast<int>(assignment.data.size());
-    Result<Bytes> back;
+    const SpanData data = assignment.to(device);
     if (moves(device, assignment)) {
         if (const auto moved = move(device, assignment); !moved)
             return tl::unexpected(moved.error());
-        back = device.read(address, length);
-    } else {
-        if (assignment.field)
-            device.learn(*assignment.field, assignment.raw);
-        const SpanData data{device.id(), static_cast<std::uint16_t>(address), assignment.data};
-        if (device.isMute()) {
-            if (const auto sent = write(device.bus(), data); !sent)
-                return tl::unexpected(sent.error());
-            showSent(output, device, assignment.field, assignment.argument, assignment.data);
-            return Written::Sent;
-        }
-        back = writeVerified(device.bus(), data);
+        return device.read(data.address, static_cast<int>(data.data.size()));
     }
-    if (!back)
-        return tl::unexpected(back.error());
-    if (assignment.argument.isByAddress())
-        showBytes(output, device, assignment.argument, *back);
+    if (assignment.field)
+        device.learn(*assignment.field, assignment.raw);
+    if (!device.isMute())
+        return writeVerified(device.bus(), data);
+    const auto sent = write(device.bus(), data);
+    return sent ? Result<Written>(std::nullopt) : tl::unexpected(sent.error());
+}
+
+std::vector<Result<Written>> writeTogether(Bus &bus, const std::vector<AssignedTo> &all)
+{
+    std::vector<SpanData> writes;
+    std::vector<Span> spans;
+    std::vector<std::size_t> readable; ///< of `all`
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const AssignedTo &one = all[i];
+        writes.push_back(one.assignment->to(*one.device));
+        one.device->learn(*one.assignment->field, one.assignment->raw);
+        if (one.device->isMute())
+            continue;
+        readable.push_back(i);
+        spans.push_back({writes[i].id, writes[i].address, static_cast<std::uint16_t>(writes[i].data.size())});
+    }
+    if (const auto sent = writeMany(bus, writes); !sent)
+        return std::vector<Result<Written>>(all.size(), tl::unexpected(sent.error()));
+    std::vector<Result<Written>> outcomes(all.size(), Written());
+    const auto shown = readMany(bus, spans);
+    for (std::size_t place = 0; place < readable.size(); ++place) {
+        const std::size_t i = readable[place];
+        if (shown && (*shown)[place] && (*shown)[place]->data == writes[i].data)
+            outcomes[i] = writes[i].data;
+        else
+            outcomes[i] = writeVerified(bus, writes[i]);
+    }
+    return outcomes;
+}
+
+void showWritten(Output &output, Device &device, const Assignment &assignment, const Written &written)
+{
+    if (!written)
+        showSent(output, device, assignment.field, assignment.argument, assignment.data);
+    else if (assignment.argument.isByAddress())
+        showBytes(output, device, assignment.argument, *written);
     else
-        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *back));
-    return Written::ReadBack;
+        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *written));
 }
 
 Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments)

@@ -5,6 +5,8 @@
 #include "app/dxl/device.h"
 #include "app/dxl/output.h"
 
+#include <optional>
+
 namespace dynascope::dxl {
 
 /// A register and what will be written to it.
@@ -15,6 +17,12 @@ struct Assignment {
     Bytes data;
 
     bool isLockedByTorque() const { return !argument.isByAddress() && field->needsTorqueOff(); }
+    bool isInRam() const { return field && field->area == Area::Ram; }
+    SpanData to(const Device &device) const
+    {
+        const int address = field ? field->address : argument.address;
+        return {device.id(), static_cast<std::uint16_t>(address), data};
+    }
 };
 
 /// What is to be written, all of it checked against the table; InvalidArgument: nothing may be written.
@@ -23,10 +31,20 @@ Result<std::vector<Assignment>> prepare(Device &device, const std::vector<Regist
 /// EEPROM is locked under torque: refused before the first write, not in the middle of several.
 Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments);
 
-enum class Written { ReadBack, Sent };
+/// What was read back; nothing where the device lets nothing be read.
+using Written = std::optional<Bytes>;
 
-/// One write, verified and printed as it was read back, as far as the device lets itself be read. A change of ID or
-/// baud rate is followed.
-Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment);
+/// One write, verified. A change of ID or baud rate is followed.
+Result<Written> writeOne(Device &device, const Assignment &assignment);
+
+struct AssignedTo {
+    Device *device = nullptr;
+    const Assignment *assignment = nullptr; ///< isInRam()
+};
+/// One register of each device, all in one packet, so that joints set off together. Who doesn't show it afterwards is
+/// written to alone, and so says why. An outcome for each.
+std::vector<Result<Written>> writeTogether(Bus &bus, const std::vector<AssignedTo> &all);
+
+void showWritten(Output &output, Device &device, const Assignment &assignment, const Written &written);
 
 } // namespace dynascope::dxl

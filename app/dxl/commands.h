@@ -35,7 +35,7 @@ ExitCode watchCommand(const Work &work);
 ExitCode writeCommand(const Work &work);
 /// @}
 
-ExitCode completionCommand(const Catalog &catalog, const Options &options);
+ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output);
 ExitCode portsCommand(Output &output);
 ExitCode versionCommand(Output &output);
 /// Serves the bus until the program is interrupted.

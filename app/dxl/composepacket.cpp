@@ -221,16 +221,21 @@ QString hexText(std::uint32_t crc)
 
 } // namespace
 
+QStringList instructionNames()
+{
+    QStringList names;
+    for (const Composer &one : Composers)
+        names << QString::fromUtf16(one.name);
+    return names;
+}
+
 Result<Bytes> composePacket(const QStringList &words)
 {
     const auto composer =
         std::ranges::find_if(Composers, [&](const Composer &one) { return words.value(0) == QStringView(one.name); });
     if (composer == Composers.end()) {
-        QStringList names;
-        for (const Composer &one : Composers)
-            names << QString::fromUtf16(one.name);
         return wrong(QStringLiteral("\"%1\" is no instruction that can be composed; there are %2")
-                         .arg(words.value(0), names.join(QStringLiteral(", "))));
+                         .arg(words.value(0), instructionNames().join(QStringLiteral(", "))));
     }
     const QStringList parameters = words.mid(1);
     Words reader(parameters);

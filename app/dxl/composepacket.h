@@ -9,6 +9,9 @@
 /// The language of `dxl packet`. Pure; errors are InvalidArgument and quote what was given.
 namespace dynascope::dxl {
 
+/// What the first word may be: ping, read...
+QStringList instructionNames();
+
 /// "read 1 132 4", as words: a packet as it goes out.
 Result<Bytes> composePacket(const QStringList &words);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Global options and the commands that find devices; registers and actions are described beside this.
+#include "app/dxl/helpformatter.h"
 #include "app/dxl/typed.h"
-
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
@@ -29,6 +28,7 @@ constexpr std::array Names{
 
 void describeGlobals(CLI::App &app, Typed &typed)
 {
+    app.formatter(std::make_shared<HelpFormatter>());
     app.fallthrough(); // --port may also stand behind the command
     app.require_subcommand(0, 1);
     app.set_help_flag("-h,--help", "Print this and end");
@@ -40,7 +40,7 @@ void describeGlobals(CLI::App &app, Typed &typed)
         ->type_name("PORT");
     app.add_option("--baud", typed.baudRate, "The line's baud rate, bits per second (57600)")
         ->type_name("N")
-        ->check(CLI::Range(1, 100'000'000).description({}));
+        ->check(CLI::Range(LowestBaudRate, HighestBaudRate).description({}));
     app.add_option("--timeout", typed.timeout,
                    "How late an answer may come on account of adapter, host and network, in ms on top of what wire and "
                    "servo take (what the kind of port is known for: 6 to 50)")

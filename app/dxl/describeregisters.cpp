@@ -61,7 +61,8 @@ void describeRegisters(CLI::App &app, Typed &typed)
     write->footer(
         "A VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, "
         "50%) or the name of an enum value or of bits joined by '+'. Nothing is written before all of it has "
-        "been checked for all devices; one that fails afterwards keeps nobody else from being written to.");
+        "been checked for all devices; one that fails afterwards keeps nobody else from being written to. RAM of "
+        "several devices is written at once, so that joints set off together; EEPROM one device after the other.");
     describeWatch(app, typed);
     describeStats(app, typed);
 }

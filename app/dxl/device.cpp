@@ -93,13 +93,20 @@ EffectiveField Device::units(const Field &field)
             return normalizedName(alternate.reg) == normalizedName(name);
         });
         const bool gears = name == field.gearRatio.numerator || name == field.gearRatio.denominator;
-        return decides || gears ? lookUp(name) : std::nullopt;
+        return decides || gears ? lookUp(name).value_or(std::nullopt) : std::nullopt;
     });
 }
 
-EffectiveField Device::limits(const Field &field)
+Result<EffectiveField> Device::limits(const Field &field)
 {
-    return effective(field, [&](QStringView name) { return lookUp(name); });
+    Result<void> readable;
+    const EffectiveField limited = effective(field, [&](QStringView name) -> std::optional<std::int64_t> {
+        const auto value = readable ? lookUp(name) : std::optional<std::int64_t>();
+        if (!value)
+            readable = tl::unexpected(value.error());
+        return value.value_or(std::nullopt);
+    });
+    return readable ? Result<EffectiveField>(limited) : tl::unexpected(readable.error());
 }
 
 void Device::assume(const Field &field, std::int64_t raw)
@@ -126,15 +133,17 @@ Result<void> Device::enter()
     return m_bus.setBaudRate(m_found.baudRate);
 }
 
-std::optional<std::int64_t> Device::lookUp(QStringView name)
+Result<std::optional<std::int64_t>> Device::lookUp(QStringView name)
 {
     const auto known = m_known.find(normalizedName(name));
     if (known != m_known.end())
         return known->second;
     const Field *field = m_table ? m_table->find(name) : nullptr;
-    if (!field)
+    if (!field || isMute())
         return std::nullopt;
     const auto raw = read(*field);
+    if (!raw && raw.error().kind != ErrorKind::Refused)
+        return tl::unexpected(raw.error());
     return raw ? std::optional(*raw) : std::nullopt;
 }
 

@@ -36,8 +36,9 @@ public:
 
     /// The field's unit now; reads the registers that decide on it, not those that limit it.
     EffectiveField units(const Field &field);
-    /// Its unit and its limits now. Registers that can't be read limit nothing: the device itself will refuse.
-    EffectiveField limits(const Field &field);
+    /// Its unit and its limits now. Registers that the device refuses to show limit nothing, nor do those of a mute one: it
+    /// will refuse by itself. Fails where one of them could not be read for another reason.
+    Result<EffectiveField> limits(const Field &field);
 
     /// `field` will have this value when units and limits matter, whatever was read before.
     void assume(const Field &field, std::int64_t raw);
@@ -50,7 +51,7 @@ public:
     Result<void> enter(); ///< the line works where the device is: another one may have been followed elsewhere
 
 private:
-    std::optional<std::int64_t> lookUp(QStringView name);
+    Result<std::optional<std::int64_t>> lookUp(QStringView name);
     void setTraits(std::uint8_t statusReturnLevel);
 
     Bus &m_bus;

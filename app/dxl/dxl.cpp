@@ -64,7 +64,7 @@ ExitCode perform(const Options &options, Output &output)
     for (const Error &refused : addUserTables(*catalog, userTablesFolder()).refused)
         output.note(refused.text);
     switch (options.command) {
-    case Command::Completion: return completionCommand(*catalog, options);
+    case Command::Completion: return completionCommand(*catalog, options, output);
     case Command::Models: return modelsCommand(*catalog, options.models, output);
     case Command::Ports: return portsCommand(output);
     case Command::Sim: return simCommand(*catalog, options, output);
@@ -78,7 +78,9 @@ ExitCode finalCode(const Options &options, const Output &output, ExitCode code)
 {
     if (interrupted() && (options.command != Command::Stats || code != ExitCode::Done))
         return ExitCode::Interrupted;
-    return output.isClosed() && code == ExitCode::Done ? ExitCode::Unread : code;
+    if (!output.isClosed() || code != ExitCode::Done)
+        return code;
+    return output.hasFailed() ? ExitCode::Failed : ExitCode::Unread;
 }
 
 } // namespace

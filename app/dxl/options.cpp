@@ -149,6 +149,14 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     return options;
 }
 
+/// The word that stands where a command should; empty where a command, or only options, were given.
+std::string unknownCommand(const CLI::App &app)
+{
+    const std::vector<std::string> left = app.remaining();
+    const bool isWord = !left.empty() && !left.front().empty() && left.front().front() != '-';
+    return isWord && app.get_subcommands().empty() ? left.front() : std::string();
+}
+
 } // namespace
 
 tl::expected<Options, ExitCode> parseOptions(int argc, const char *const *argv)
@@ -160,7 +168,9 @@ tl::expected<Options, ExitCode> parseOptions(int argc, const char *const *argv)
         app.parse(argc, argv);
     } catch (const CLI::ParseError &error) {
         const bool isWrong = error.get_exit_code() != 0;
-        if (isWrong)
+        if (const std::string unknown = unknownCommand(app); isWrong && !unknown.empty())
+            std::fprintf(stderr, "dxl: there is no command \"%s\"; dxl --help lists them\n", unknown.c_str());
+        else if (isWrong)
             std::fprintf(stderr, "dxl: %s; dxl --help tells more\n", error.what());
         else
             app.exit(error); // --help, --version

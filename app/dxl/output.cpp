@@ -4,7 +4,9 @@
 #include "app/dxl/terminal.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 
 namespace dynascope::dxl {
 
@@ -17,7 +19,13 @@ void Output::print(const QByteArray &text)
     const bool printed = std::fwrite(text.constData(), 1, static_cast<std::size_t>(text.size()), stdout)
                              == static_cast<std::size_t>(text.size())
                          && std::fflush(stdout) == 0;
-    m_closed = !printed;
+    if (printed)
+        return;
+    const int why = errno;
+    m_closed = true;
+    m_failed = why != EPIPE;
+    if (m_failed)
+        note(QStringLiteral("standard output can't be written: %1").arg(QString::fromLocal8Bit(std::strerror(why))));
 }
 
 void Output::result(const QString &text, const Document &document)

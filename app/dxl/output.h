@@ -29,8 +29,10 @@ public:
 
     /// A line of its own, now: a sample, in whatever form the person asked for.
     void line(const QByteArray &text);
-    /// Nobody reads standard output any more: what is only for reading may end.
+    /// Nobody reads standard output any more, or its disk is full: what is only for reading may end.
     bool isClosed() const { return m_closed; }
+    /// It can't be written for another reason than that nobody reads it; that has been said.
+    bool hasFailed() const { return m_failed; }
 
     /// In a JSON array, in place of the result that did not come.
     void failedResult(const Document &document);
@@ -56,6 +58,7 @@ private:
     bool m_nameDevices = false;
     bool m_lines = false;
     bool m_closed = false;
+    bool m_failed = false;
     bool m_barShown = false;
     QByteArrayList m_documents;
 };

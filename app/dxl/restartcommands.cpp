@@ -101,6 +101,12 @@ Result<DevicePlace> placeAfter(const Device &device, ResetOption option)
                                       "all-but-id-and-baud leaves it where it is")
                            .arg(device.name()));
     }
+    if (option == ResetOption::All && device.table()->description().axes > 1) {
+        return failure(ErrorKind::NotSupported,
+                       QStringLiteral("%1 is one of two axes, and it isn't known which ID this reset gives it; reset "
+                                      "all-but-id, then write the ID")
+                           .arg(device.name()));
+    }
     if (option == ResetOption::All)
         after.id = static_cast<std::uint8_t>(id->initial.value_or(1));
     if (option != ResetOption::AllButIdAndBaud)

@@ -7,6 +7,8 @@
 #include "core/sim/yamltree.h"
 
 #include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
 
 #include <cstdio>
 
@@ -39,7 +41,19 @@ Result<void> complete(sim::BusPlan &plan, const SimOptions &options)
     return {};
 }
 
-ExitCode control(const SimOptions &options, Output &output)
+/// Help is a list of lines for people; what else is answered goes out as it came, for programs.
+QByteArray readable(const QByteArray &answer)
+{
+    const QJsonDocument document = QJsonDocument::fromJson(answer);
+    if (!document.isArray())
+        return answer;
+    QStringList lines;
+    for (const QJsonValue &line : document.array())
+        lines << line.toString();
+    return lines.join(u'\n').toUtf8();
+}
+
+ExitCode control(const SimOptions &options, bool json, Output &output)
 {
     const auto answer = sim::askControl(options.controlled, options.line.toUtf8());
     if (!answer)
@@ -47,7 +61,7 @@ ExitCode control(const SimOptions &options, Output &output)
     const QByteArray refused = "error: ";
     if (answer->startsWith(refused))
         return output.refuse({ErrorKind::InvalidArgument, QString::fromUtf8(answer->mid(refused.size()))});
-    std::printf("%s\n", answer->constData());
+    output.line(json ? *answer : readable(*answer));
     return ExitCode::Done;
 }
 
@@ -62,7 +76,7 @@ ExitCode simCommand(const Catalog &catalog, const Options &all, Output &output)
 {
     const SimOptions &options = all.sim;
     if (options.isControl)
-        return control(options, output);
+        return control(options, all.json, output);
     Interrupt interrupt; // before the server's thread begins
     auto plan = planOf(options, catalog);
     if (!plan)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/simoptions.h"
 
+#include "core/sim/control.h"
 #include "core/sim/faulttext.h"
 
 #include <CLI/CLI.hpp>
@@ -30,6 +31,15 @@ std::string footer()
     for (const QString &line : sim::faultHelp())
         text += QStringLiteral("  ") + line + u'\n';
     text += QStringLiteral("dxl sim ctl PATH help lists what can be done to the bus while it runs.");
+    return text.toStdString();
+}
+
+std::string controlFooter()
+{
+    QString text =
+        QStringLiteral("COMMAND is one of these. WHO is an ID, ID@BAUD, #1 for the first device, its name, or all:\n");
+    for (const QString &line : sim::Control::commandHelp())
+        text += QStringLiteral("  ") + line + u'\n';
     return text.toStdString();
 }
 
@@ -67,8 +77,8 @@ void SimArguments::describe(CLI::App &app)
     sim->footer(footer());
     sim->require_subcommand(0, 1);
     typed.sim = sim;
-    typed.ctl = sim->add_subcommand("ctl", "Do something to a bus that is being served: dxl sim ctl PATH COMMAND...; "
-                                           "COMMAND help lists what");
+    typed.ctl = sim->add_subcommand("ctl", "Do something to a bus that is being served");
+    typed.ctl->footer(controlFooter());
     typed.ctl->add_option("PATH", typed.controlled, "Its link or terminal")->required()->type_name({});
     typed.ctl->fallthrough(false)->prefix_command(); // what follows is the simulator's language: -0.3 is a torque, no option
 }

@@ -22,23 +22,89 @@ QString doneBefore(const std::vector<Assignment> &assignments, std::size_t faile
                            : QStringLiteral("; written before it: %1").arg(names.join(QStringLiteral(", ")));
 }
 
-/// The failure that ends all, if there was one.
-Result<void> writeAll(const Work &work, Device &device, const std::vector<Assignment> &assignments, ExitCode &code)
+/// What is written to one device, and what came of it.
+struct Writing {
+    Device *device = nullptr;
+    std::vector<Assignment> assignments;
+    std::vector<Result<Written>> outcomes; ///< as many as were tried; after a failure none
+
+    bool isGoingOn() const { return outcomes.empty() || outcomes.back().has_value(); }
+};
+
+/// Prints one outcome; the failure that ends all, if it was one.
+Result<void> show(const Work &work, const Writing &writing, std::size_t i, ExitCode &code)
 {
-    if (const auto there = device.enter(); !there)
-        return there;
-    device.forget();
-    for (std::size_t i = 0; i < assignments.size(); ++i) {
-        const auto written = writeOne(work.output, device, assignments[i]);
-        if (!written) {
-            code =
-                showFailure(work.output, device, assignments[i].argument, written.error(), doneBefore(assignments, i));
-            return endsAll(written.error()) ? Result<void>(tl::unexpected(written.error())) : Result<void>();
-        }
-        if (*written == Written::Sent && code == ExitCode::Done)
+    const Assignment &assignment = writing.assignments[i];
+    const Result<Written> &outcome = writing.outcomes[i];
+    if (outcome) {
+        showWritten(work.output, *writing.device, assignment, *outcome);
+        if (!*outcome && code == ExitCode::Done)
             code = ExitCode::Unconfirmed;
+        return {};
+    }
+    code = showFailure(work.output, *writing.device, assignment.argument, outcome.error(),
+                       doneBefore(writing.assignments, i));
+    return endsAll(outcome.error()) ? Result<void>(tl::unexpected(outcome.error())) : Result<void>();
+}
+
+/// The failure that ends all, if there was one.
+Result<void> writeAll(const Work &work, Writing &writing, ExitCode &code)
+{
+    if (const auto there = writing.device->enter(); !there)
+        return there;
+    writing.device->forget();
+    for (std::size_t i = 0; i < writing.assignments.size() && writing.isGoingOn(); ++i) {
+        writing.outcomes.push_back(writeOne(*writing.device, writing.assignments[i]));
+        if (const auto shown = show(work, writing, i, code); !shown)
+            return shown;
     }
     return {};
+}
+
+/// Register after register to all devices, then printed device after device.
+ExitCode writeAtOnce(const Work &work, std::vector<Writing> &writings)
+{
+    for (Writing &writing : writings)
+        writing.device->forget();
+    for (std::size_t i = 0; i < work.options.registers.size(); ++i) {
+        std::vector<Writing *> going;
+        std::vector<AssignedTo> assigned;
+        for (Writing &writing : writings) {
+            if (!writing.isGoingOn())
+                continue;
+            going.push_back(&writing);
+            assigned.push_back({writing.device, &writing.assignments[i]});
+        }
+        const auto outcomes = writeTogether(work.bus, assigned);
+        for (std::size_t place = 0; place < going.size(); ++place)
+            going[place]->outcomes.push_back(outcomes[place]);
+    }
+    ExitCode code = ExitCode::Done;
+    for (const Writing &writing : writings) {
+        for (std::size_t i = 0; i < writing.outcomes.size(); ++i)
+            (void)show(work, writing, i, code);
+    }
+    return code;
+}
+
+/// Is it about a device, not about what was asked?
+bool isOfTheLine(const Error &error)
+{
+    switch (error.kind) {
+    case ErrorKind::InvalidArgument:
+    case ErrorKind::NotFound:
+    case ErrorKind::NotSupported:
+    case ErrorKind::PortUnsuitable: return false;
+    default: return true;
+    }
+}
+
+ExitCode refuse(const Work &work, const Device &device, const Error &error)
+{
+    const Error named{error.kind, work.output.named(device.id(), error.text)};
+    if (!isOfTheLine(error))
+        return work.output.refuse(named);
+    return work.output.fail({named.kind, named.text + QStringLiteral("; nothing was written")});
 }
 
 /// Only one device can have an ID.
@@ -63,22 +129,28 @@ ExitCode writeCommand(const Work &work)
             work.output.note(QStringLiteral("nothing was written, since not everybody answered"));
         return targets.code;
     }
-    std::vector<std::vector<Assignment>> assignments;
+    std::vector<Writing> writings;
     for (Device &device : targets.devices) {
         auto prepared = prepare(device, work.options.registers);
         if (!prepared)
-            return work.output.refuse({prepared.error().kind, work.output.named(device.id(), prepared.error().text)});
+            return refuse(work, device, prepared.error());
         if (targets.devices.size() > 1) {
             if (const auto alone = checkId(device, *prepared); !alone)
                 return work.output.refuse(alone.error());
         }
         if (const auto free = checkTorque(device, *prepared); !free)
             return work.output.fail(free.error());
-        assignments.push_back(std::move(*prepared));
+        writings.push_back({&device, std::move(*prepared), {}});
     }
+    // EEPROM takes its time and may move a device: there each is heard out before the next.
+    const bool inRam = std::ranges::all_of(writings, [](const Writing &one) {
+        return std::ranges::all_of(one.assignments, &Assignment::isInRam);
+    });
+    if (writings.size() > 1 && inRam)
+        return writeAtOnce(work, writings);
     ExitCode code = ExitCode::Done;
-    for (std::size_t i = 0; i < assignments.size(); ++i) {
-        if (!writeAll(work, targets.devices[i], assignments[i], code))
+    for (Writing &writing : writings) {
+        if (!writeAll(work, writing, code))
             break;
     }
     return code;

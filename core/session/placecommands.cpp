@@ -179,6 +179,15 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                       done);
     }
 
+    if (option == ResetOption::All && device.table().description().axes > 1) {
+        return refuse(&device,
+                      {ErrorKind::NotSupported,
+                       tr("%1 is one of two axes, and it isn't known which ID this reset gives it; keep the ID, then "
+                          "change it")
+                           .arg(device.displayName())},
+                      done);
+    }
+
     auto report = reporting(device,
                             tr("%1 is reset; it is now ID %2 at %3 bps")
                                 .arg(plan.place.name)

@@ -68,6 +68,14 @@ Control::Control(Surroundings surroundings, QStringList names)
 {
 }
 
+QStringList Control::commandHelp()
+{
+    QStringList lines;
+    for (const Verb &verb : verbs())
+        lines << QString::fromUtf16(verb.help);
+    return lines;
+}
+
 QByteArray Control::obey(const QByteArray &line, SimulatedBus &bus, LineTime now)
 {
     const QString text = QString::fromUtf8(line).trimmed();

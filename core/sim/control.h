@@ -25,6 +25,9 @@ public:
     };
     explicit Control(Surroundings surroundings = {}, QStringList names = {}); ///< of the bus's servos, in their order
 
+    /// Its commands, a line each: how one is written, and what it does.
+    static QStringList commandHelp();
+
     /// `line` without its end. The bus has been advanced to `now`.
     QByteArray obey(const QByteArray &line, SimulatedBus &bus, LineTime now);
 

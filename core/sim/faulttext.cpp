@@ -100,6 +100,14 @@ Result<Word> takeApart(QStringView text)
     return word;
 }
 
+/// How a word is written, from its help, and what a TIME in it looks like: nobody guesses that it needs a unit.
+QString form(const char16_t *help)
+{
+    const QString form = QStringView(help).toString().section(u' ', 0, 0);
+    const bool takesTime = form.contains(QStringLiteral("TIME"));
+    return QStringLiteral("it is written %1%2").arg(form, takesTime ? QStringLiteral(", with 250us, 16ms or 1.5s as TIME") : QString());
+}
+
 /// What a fault of replies takes behind its '='.
 enum class Takes { Share, Id, Number, Bytes, Time };
 struct ReplyWord {
@@ -151,8 +159,7 @@ Result<void> addReplyFault(const Word &word, const ReplyWord &means, LineFaults 
     }
     }
     if (!good)
-        return wrong(word.whole, QStringLiteral("it is written %1")
-                                     .arg(QStringView(means.help).toString().section(u' ', 0, 0)));
+        return wrong(word.whole, form(means.help));
     std::vector<int> ids = word.ids;
     if (ids.empty())
         ids.push_back(-1);
@@ -240,6 +247,16 @@ const std::array LineWords{
              u"strict-gaps               a request that pauses for more than 1.5 ms is lost; otherwise 20 ms, for busy hosts"},
 };
 
+QStringList faultNames()
+{
+    QStringList names;
+    for (const LineWord &word : LineWords)
+        names << QString::fromUtf16(word.name);
+    for (const ReplyWord &word : ReplyWords)
+        names << QString::fromUtf16(word.name);
+    return names;
+}
+
 Result<void> apply(QStringView text, LineFaults &faults)
 {
     const auto word = takeApart(text);
@@ -250,11 +267,11 @@ Result<void> apply(QStringView text, LineFaults &faults)
         return addReplyFault(*word, *reply, faults);
     const auto line = std::ranges::find_if(LineWords, named);
     if (line == LineWords.end())
-        return wrong(text, QStringLiteral("no fault is called %1").arg(word->name.toString()));
+        return wrong(text, QStringLiteral("no fault is called %1; there are %2")
+                               .arg(word->name.toString(), faultNames().join(QStringLiteral(", "))));
     const bool plain = word->ids.empty() && word->times < 0 && word->share >= 1;
     if (!plain || !line->apply(*word, faults))
-        return wrong(text, QStringLiteral("it is written %1")
-                               .arg(QStringView(line->help).toString().section(u' ', 0, 0)));
+        return wrong(text, form(line->help));
     return {};
 }
 

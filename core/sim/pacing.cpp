@@ -21,13 +21,29 @@ double milliseconds(LineTime time)
 
 void Pacing::handedOn(LineTime due, LineTime at)
 {
+    begin(at);
+    const LineTime error = std::clamp(at - due, LineTime{}, LineTime(std::chrono::seconds(100)));
+    m_errors[static_cast<std::size_t>(m_replies) % m_errors.size()] = static_cast<std::int32_t>(error / Step);
+    ++m_replies;
+    count(error);
+}
+
+void Pacing::heardLate(LineTime by, LineTime at)
+{
+    begin(at);
+    count(by);
+}
+
+void Pacing::begin(LineTime at)
+{
     if (m_inPeriod > 0 && at - m_begin >= Period)
         judge();
     if (m_inPeriod == 0)
         m_begin = at;
-    const LineTime error = std::clamp(at - due, LineTime{}, LineTime(std::chrono::seconds(100)));
-    m_errors[static_cast<std::size_t>(m_replies) % m_errors.size()] = static_cast<std::int32_t>(error / Step);
-    ++m_replies;
+}
+
+void Pacing::count(LineTime error)
+{
     ++m_inPeriod;
     m_worst = std::max(m_worst, error);
     if (error > Late) {
@@ -40,8 +56,8 @@ void Pacing::judge()
 {
     if (m_keepsUp && m_lateInPeriod >= Fewest && m_lateInPeriod * BehindFrom >= m_inPeriod) {
         m_keepsUp = false;
-        m_news = QStringLiteral("This machine does not keep up with the wire: %1 of %2 replies came more than %3 ms "
-                                "late, the latest by %4 ms. What a program sees now is no servo's timing")
+        m_news = QStringLiteral("This machine does not keep up with the wire: %1 of %2 requests and replies were more "
+                                "than %3 ms late, the latest by %4 ms. What a program sees now is no servo's timing")
                      .arg(m_lateInPeriod)
                      .arg(m_inPeriod)
                      .arg(milliseconds(Late))

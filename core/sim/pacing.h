@@ -19,9 +19,13 @@ public:
 
     /// A reply was handed on at `at`, its last byte being due at `due`.
     void handedOn(LineTime due, LineTime at);
+    /// A request was taken up at `at`, after the server had been kept from running for `by` longer than it meant to sleep:
+    /// the wire had it up to so much earlier. What is answered to it may be on time and yet too late, or collide with what
+    /// an impatient program sent meanwhile.
+    void heardLate(LineTime by, LineTime at);
 
     struct Report {
-        std::int64_t replies = 0, late = 0;      ///< since the start; late: by more than Late
+        std::int64_t replies = 0, late = 0;      ///< since the start; late: by more than Late, requests included
         LineTime median{}, percentile99{}, worst{}; ///< of the latest replies, some thousands at most
         bool keepsUp = true;
     };
@@ -32,6 +36,8 @@ public:
     std::optional<QString> news(LineTime now);
 
 private:
+    void begin(LineTime at);
+    void count(LineTime error);
     void judge();
 
     static constexpr LineTime Period = std::chrono::seconds(1);

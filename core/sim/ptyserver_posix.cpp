@@ -94,7 +94,7 @@ private:
     Change m_onTick;
     std::function<void(const QString &)> m_onPacing;
     Pacing m_pacing;
-    LineTime m_nextTick{};
+    LineTime m_nextTick{}, m_overslept{}; ///< how much longer the last sleep was than it should
     const QString m_path, m_link;
     const int m_wake; ///< an eventfd
     std::atomic<bool> m_stop = false;
@@ -152,8 +152,11 @@ void PtyServer::Worker::hearClient(LineTime now)
     if (!m_terminal)
         return;
     const Bytes bytes = m_terminal->read();
-    if (!bytes.empty())
+    if (!bytes.empty()) {
         m_assembler.feed(bytes, now);
+        if (m_overslept > Pacing::Late)
+            m_pacing.heardLate(m_overslept, now);
+    }
     m_assembler.setPatience(m_bus->faults().bridgedGap);
     while (const auto packet = m_assembler.next(now))
         m_bus->send(*packet, m_assembler.fedAt(), m_terminal->baudRate());
@@ -204,12 +207,15 @@ void PtyServer::Worker::wait()
     const auto quiet = m_bus->quietAt();
     const LineTime exact = quiet ? std::min(*quiet, now + LongestPiece) : LineTime{};
     const LineTime sleep = (quiet ? exact - SpinTime : coarseWake()) - now;
+    m_overslept = {};
     if (sleep > 0ns) {
         const timespec length{static_cast<time_t>(sleep / 1s), static_cast<long>((sleep % 1s).count())};
         std::array<pollfd, 3> waited{pollfd{m_terminal ? m_terminal->descriptor() : -1, POLLIN, 0},
                                      pollfd{m_wake, POLLIN, 0},
                                      pollfd{m_terminal ? m_terminal->watchDescriptor() : -1, POLLIN, 0}};
-        if (ppoll(waited.data(), waited.size(), &length, nullptr) > 0) {
+        const bool called = ppoll(waited.data(), waited.size(), &length, nullptr) > 0;
+        m_overslept = wallTime() - now - sleep;
+        if (called) {
             std::uint64_t count = 0;
             if ((waited[1].revents & POLLIN) && ::read(m_wake, &count, sizeof count) < 0 && errno != EINTR)
                 return;

@@ -226,6 +226,8 @@ Servo::Outcome Servo::carryOut(const FactoryResetCommand &command, Address how)
     const std::int64_t keptId = m_registers.get(Reg::Id);
     const std::int64_t keptBaud = m_registers.get(Reg::BaudRate);
     m_registers.resetEeprom();
+    if (m_settings.factoryId >= 0)
+        m_registers.set(Reg::Id, m_settings.factoryId);
     if (command.option != ResetOption::All)
         m_registers.set(Reg::Id, keptId);
     if (command.option == ResetOption::AllButIdAndBaud)

@@ -26,6 +26,7 @@ struct ServoSettings {
     bool answersDamagedRequests = false;                  ///< with CRC Error, when the damaged packet names it
     bool answersReboot = true;
     bool idChangeAnswersWithNewId = false;
+    int factoryId = -1; ///< after a Factory Reset of everything; −1: the table's
     DeviceError limitError = DeviceError::DataLimit;      ///< for a goal beyond a limit register
     DeviceError alignmentError = DeviceError::DataLength; ///< for a write that begins inside a register
     GoalOnTorqueOn goalOnTorqueOn = GoalOnTorqueOn::BecomesPresentPosition;

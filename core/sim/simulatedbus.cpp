@@ -85,6 +85,8 @@ Result<Servo *> SimulatedBus::add(const ServoSpec &wanted)
         Servo *const second = m_servos[first + 1].get();
         servo->setOtherAxis(second);
         second->setOtherAxis(servo);
+        // Such models ship with the IDs 1 and 2. That a Factory Reset gives each axis its own again isn't documented.
+        second->settings().factoryId = static_cast<int>(table->find(Known::Id)->initial.value_or(1)) + 1;
         m_twins.push_back({{servo, second}, spec.baudRate});
     }
     return servo;

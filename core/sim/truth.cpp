@@ -2,11 +2,14 @@
 #include "core/sim/truth.h"
 
 #include "core/sim/power.h"
+#include "core/sim/registerfile.h"
 #include "core/sim/servo.h"
 #include "core/sim/simulatedbus.h"
 
 #include <QJsonArray>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -66,6 +69,33 @@ QString led(Servo &servo)
     return QStringLiteral("off");
 }
 
+bool isModelled(const ControlTable &table, const Field &field)
+{
+    for (std::size_t i = 0; i < static_cast<std::size_t>(Reg::Count); ++i) {
+        if (findRegister(table, static_cast<Reg>(i)) == &field)
+            return true;
+    }
+    return field.name.startsWith(u"Indirect ") || field.name.startsWith(u"LED") || field.name == u"Model Information";
+}
+
+/// Registers that are there, are read and written, and do nothing: external ports, a dynamic brake.
+QJsonArray notModelled(const ControlTable &table)
+{
+    constexpr std::array<int, 3> driveModes{0, 2, 3}; // bits: direction, time-based profile, torque on by goal
+    QJsonArray names;
+    for (const Field &field : table.fields()) {
+        if (!isModelled(table, field))
+            names.append(field.name);
+        if (&field != findRegister(table, Reg::DriveMode))
+            continue;
+        for (const BitField &bit : field.bits) {
+            if (std::ranges::find(driveModes, bit.first) == driveModes.end())
+                names.append(QStringLiteral("%1: %2").arg(field.name, bit.name));
+        }
+    }
+    return names;
+}
+
 } // namespace
 
 QJsonObject truth(Servo &servo)
@@ -90,6 +120,7 @@ QJsonObject truth(Servo &servo)
          QJsonObject{{QStringLiteral("name"), motor.name},
                      {QStringLiteral("known"), QJsonArray::fromStringList(motor.knownFigures())},
                      {QStringLiteral("chosen"), QJsonArray::fromStringList(motor.chosenFigures())}}},
+        {QStringLiteral("notModelled"), notModelled(servo.table())},
         {QStringLiteral("registers"), registers},
     };
 }

@@ -338,7 +338,7 @@ Result<std::int64_t> fromName(const Field &field, const EffectiveField &effectiv
         return refuse(QStringLiteral("\"%1\" is no value of %2; it is one of %3").arg(text, field.name, oneOf(names)));
     QString takes = QStringLiteral("a number");
     if (effective.unit != Unit::None)
-        takes += QStringLiteral(", one with %1").arg(typableUnits(effective));
+        takes += QStringLiteral(" by itself or with a unit (%1)").arg(typableUnits(effective));
     if (!names.isEmpty())
         takes += QStringLiteral(", or %1").arg(oneOf(names));
     return refuse(QStringLiteral("\"%1\" is no value of %2; it takes %3").arg(text, field.name, takes));
@@ -357,7 +357,7 @@ Result<std::int64_t> unchecked(const Field &field, const EffectiveField &effecti
             return number->integer;
         return refuse(effective.unit == Unit::None
                 ? QStringLiteral("%1 takes a whole number, not %2").arg(field.name, text)
-                : QStringLiteral("%1 takes a whole number, or one with %2, not %3")
+                : QStringLiteral("%1 takes a whole number, or any with a unit (%2), not %3")
                       .arg(field.name, typableUnits(effective), text));
     }
     if (!namesOf(field).isEmpty()) {

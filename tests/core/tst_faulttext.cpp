@@ -67,7 +67,9 @@ private slots:
         const auto row = [](const char *text, const char *says) {
             QTest::newRow(text) << QString::fromLatin1(text) << QString::fromLatin1(says);
         };
-        row("frobnicate", "no fault is called frobnicate");
+        row("frobnicate", "no fault is called frobnicate; there are echo, latency, jitter,");
+        row("latency=16", "it is written latency=TIME, with 250us, 16ms or 1.5s as TIME");
+        row("late:3=16", "it is written late[:IDS]=TIME, with 250us, 16ms or 1.5s as TIME");
         row("=3", "no fault is called");
         row("echo nonsense=1", "\"nonsense=1\"");
         row("latency", "latency=TIME");

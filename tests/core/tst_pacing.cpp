@@ -55,6 +55,19 @@ private slots:
         QCOMPARE(pacing.report().late, 300);
     }
 
+    /// A server that sleeps through its requests answers those that it hears on time.
+    void requestsThatWereHeardLate()
+    {
+        Pacing pacing;
+        for (int i = 0; i < 5; ++i)
+            pacing.heardLate(120ms, i * 150ms);
+        const auto news = pacing.news(2s);
+        QVERIFY(news && news->contains(QStringLiteral("5 of 5 requests and replies were more than 1 ms late, the latest "
+                                                      "by 120.0 ms")));
+        QCOMPARE(pacing.report().replies, 0);
+        QCOMPARE(pacing.report().late, 5);
+    }
+
     void whatStopsWhileBehindIsJudgedByTheClock()
     {
         Pacing pacing;

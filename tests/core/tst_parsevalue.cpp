@@ -140,12 +140,13 @@ private slots:
             "\"rpm\" does not fit Goal Position; it takes deg, rad, turn, pulse, or a bare number for the register's "
             "own "
             "value");
-        row("Goal Position", "90.5", "Goal Position takes a whole number, or one with deg, rad, turn, pulse, not 90.5");
+        row("Goal Position", "90.5",
+            "Goal Position takes a whole number, or any with a unit (deg, rad, turn, pulse), not 90.5");
         row("Goal Position", "nan",
-            "\"nan\" is no value of Goal Position; it takes a number, one with deg, rad, turn, pulse");
+            "\"nan\" is no value of Goal Position; it takes a number by itself or with a unit (deg, rad, turn, pulse)");
         row("Goal Position", "1e999deg",
-            "\"1e999deg\" is no value of Goal Position; it takes a number, one with deg, rad, "
-            "turn, pulse");
+            "\"1e999deg\" is no value of Goal Position; it takes a number by itself or with a unit "
+            "(deg, rad, turn, pulse)");
         row("Goal Velocity", "100rpm",
             "Goal Velocity can't be 437 (100.1 rev/min); its range is -200 to 200 (-45.8 to "
             "45.8 rev/min)");
@@ -170,7 +171,7 @@ private slots:
         row("Torque Enable", "2", "Torque Enable can't be 2; it is one of 0 (Off), 1 (On)");
         row("Bus Watchdog", "-1", "Bus Watchdog can't be -1 (-20 ms); its range is 0 to 127 (0 to 2540 ms)");
         row("Bus Watchdog", "soon",
-            "\"soon\" is no value of Bus Watchdog; it takes a number, one with ms, s, us, or Off");
+            "\"soon\" is no value of Bus Watchdog; it takes a number by itself or with a unit (ms, s, us), or Off");
         row("Drive Mode", "16", "Drive Mode can't be 16; its range is 0 to 13");
         row("Drive Mode", "backwards",
             "\"backwards\" is no bit of Drive Mode; it has Reverse direction, Time-based profile, "

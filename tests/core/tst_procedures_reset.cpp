@@ -3,6 +3,8 @@
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
+#include <QFile>
+
 using namespace dynascope;
 
 /// Factory Reset as the window asks for it: session, bus thread and simulated servos in virtual time.
@@ -29,6 +31,23 @@ private slots:
         QCOMPARE(device.id(), 5);
         QCOMPARE(device.baudRate(), 1000000);
         QCOMPARE(device.state(), Device::State::Present);
+    }
+
+    void oneOfTwoAxesKeepsItsId()
+    {
+        Catalog catalog = test::builtInCatalog();
+        QFile file(QStringLiteral(DYNASCOPE_SOURCE_DIR "/tests/data/tables/two-axes.json"));
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        QVERIFY(catalog.add(file.readAll(), QStringLiteral("two-axes.json")));
+        VirtualSession all(catalog, QStringLiteral("Two axes@1000000:11+12"));
+        all.open(1000000);
+        Device &device = *all.line->devices().back();
+        std::optional<Result<void>> outcome;
+        all.commands.factoryReset(device, ResetOption::All, [&](const Result<void> &result) { outcome = result; });
+        QVERIFY(VirtualSession::waitFor([&] { return outcome.has_value(); }));
+        QVERIFY(!*outcome);
+        QVERIFY2(outcome->error().text.contains(QStringLiteral("one of two axes")), qPrintable(outcome->error().text));
+        QCOMPARE(device.id(), 12);
     }
 
 private:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/truth.h"
+#include "tests/support/builtincatalog.h"
+#include "tests/support/otherseries.h"
 #include "tests/support/servobench.h"
 #include "tests/support/testmain.h"
 
@@ -34,6 +36,18 @@ private slots:
         QCOMPARE(said.value(u"led").toString(), u"on");
         QCOMPARE(said.value(u"power").toBool(), true);
         QCOMPARE(said.value(u"deaf").toBool(true), false);
+    }
+
+    void whatIsMemoryOnly()
+    {
+        QCOMPARE(truth(m_bench.servo()).value(u"notModelled").toArray(), QJsonArray());
+        Catalog catalog = test::builtInCatalog();
+        QVERIFY(catalog.add(test::otherSeries(), QStringLiteral("other.json")));
+        SimulatedBus bus(catalog);
+        const auto specs = parseServoSpecs(u"YM070-210-R051-RH@57600:1", catalog);
+        QVERIFY2(specs, qPrintable(specs ? QString() : specs.error().text));
+        QVERIFY(bus.add((*specs)[0]));
+        QCOMPARE(truth(*bus.servos().front()).value(u"notModelled").toArray(), QJsonArray({QStringLiteral("Drive Mode: Dynamic brake")}));
     }
 
     void physicalState()

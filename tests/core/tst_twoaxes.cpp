@@ -95,6 +95,18 @@ private slots:
             QVERIFY(!client.exchange(id + QStringLiteral(" 01"), 1s).empty());
     }
 
+    void aFactoryResetOfAllGivesEachAxisItsOwnId()
+    {
+        m_bus = std::make_unique<SimulatedBus>(m_catalog);
+        QVERIFY(m_bus->add((*parseServoSpecs(u"Two axes@57600:11+12", m_catalog))[0]));
+        Client client{*m_bus};
+        QVERIFY(!client.exchange(QStringLiteral("0C 06 FF"), 1s).empty());
+        QCOMPARE(m_bus->servos()[1]->id(), 2);
+        QCOMPARE(m_bus->servos()[0]->id(), 11); // the other is a device of its own
+        QVERIFY(!client.exchange(QStringLiteral("0B 06 FF"), 1s).empty());
+        QCOMPARE(m_bus->servos()[0]->id(), 1);
+    }
+
 private:
     Catalog m_catalog = test::builtInCatalog();
     std::unique_ptr<SimulatedBus> m_bus;

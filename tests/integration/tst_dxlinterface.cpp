@@ -30,7 +30,7 @@ QString contents(const QString &path)
 /// The commands, as `dxl --help` lists them.
 QStringList commands()
 {
-    const QString list = test::dxl({u"--help"_s}).out.section(u"Subcommands:\n"_s, 1).section(u"\n\n"_s, 0, 0);
+    const QString list = test::dxl({u"--help"_s}).out.section(u"Commands:\n"_s, 1).section(u"\n\n"_s, 0, 0);
     QStringList names;
     for (const QString &line : list.split(u'\n')) {
         if (line.startsWith(u"  ") && line[2] != u' ')
@@ -70,6 +70,8 @@ private slots:
             QCOMPARE(help.code, 0);
             QCOMPARE(help.err, QString());
             QVERIFY2(help.out.contains(u"Usage: dxl "_s + name), qPrintable(help.out));
+            for (const QString &line : help.out.split(u'\n'))
+                QVERIFY2(line.size() <= 100, qPrintable(line));
         }
     }
 
@@ -111,42 +113,63 @@ private slots:
         QCOMPARE(groff.exitCode(), 0);
     }
 
-    void bashCompletes_data()
+    void completes_data()
     {
+        QTest::addColumn<QString>("shell");
         QTest::addColumn<QString>("line");
         QTest::addColumn<QString>("offers");
         QTest::addColumn<QString>("offersNot");
-        QTest::newRow("commands") << u"dxl re"_s << u"read reboot reset"_s << u"scan"_s;
-        QTest::newRow("behind options") << u"dxl --port /dev/ttyUSB0 --json to"_s << u"torque"_s << u"table"_s;
-        QTest::newRow("options of a command")
-            << u"dxl watch 1 --"_s << u"--rate --count --csv --port --json"_s << u"--sweep"_s;
-        QTest::newRow("fields") << u"dxl read 1 present_p"_s << u"present_position present_pwm"_s << u"goal_position"_s;
-        QTest::newRow("words") << u"dxl reset all-"_s << u"all-but-id all-but-id-and-baud"_s << u"all"_s;
-        QTest::newRow("ports") << u"dxl --port s"_s << u"sim"_s << u"scan"_s;
-        QTest::newRow("rates") << u"dxl scan --bauds a"_s << u"all"_s << u"57600"_s;
+        for (const QString &shell : {u"bash"_s, u"fish"_s}) {
+            const auto row = [&shell](const char *name, const QString &line, const QString &offers, const QString &offersNot) {
+                QTest::addRow("%s: %s", qPrintable(shell), name) << shell << line << offers << offersNot;
+            };
+            row("commands", u"dxl re"_s, u"read reboot reset"_s, u"scan"_s);
+            row("behind options", u"dxl --port /dev/ttyUSB0 --json to"_s, u"torque"_s, u"table"_s);
+            row("a port that is called as a command", u"dxl --port sim sc"_s, u"scan"_s, u"sim"_s);
+            row("options of a command", u"dxl watch 1 --"_s, u"--rate --count --csv --port --json"_s, u"--sweep"_s);
+            row("fields", u"dxl read 1 present_p"_s, u"present_position present_pwm"_s, u"goal_position"_s);
+            row("assignments", u"dxl write 1 goal_p"_s, u"goal_position= goal_pwm="_s, u"goal_position"_s);
+            row("words", u"dxl reset all-"_s, u"all-but-id all-but-id-and-baud"_s, u"all"_s);
+            row("ports", u"dxl --port s"_s, u"sim"_s, u"scan"_s);
+            row("rates", u"dxl scan --bauds a"_s, u"all"_s, u"57600"_s);
+            row("models", u"dxl stop 1 --model XM430-W3"_s, u"XM430-W350"_s, u"--model"_s);
+            row("instructions", u"dxl packet fast"_s, u"fast-sync-read fast-bulk-read"_s, u"ping"_s);
+            row("control channel", u"dxl sim ctl /tmp/x pus"_s, u"push"_s, u"plug"_s);
+            row("files", u"dxl sim --bus /etc/passw"_s, u"/etc/passwd"_s, u"ctl"_s);
+            row("nothing but a number", u"dxl --timeout s"_s, QString(), u"scan"_s);
+        }
     }
 
-    void bashCompletes()
+    void completes()
     {
+        QFETCH(QString, shell);
         QFETCH(QString, line);
         QFETCH(QString, offers);
         QFETCH(QString, offersNot);
+        if (QStandardPaths::findExecutable(shell).isEmpty())
+            QSKIP("the shell is not here");
         QTemporaryDir directory;
-        QFile script(directory.filePath(u"dxl.bash"_s));
+        QFile script(directory.filePath(u"completion"_s));
         QVERIFY(script.open(QIODevice::WriteOnly));
-        const Outcome made = test::dxl({u"completion"_s, u"bash"_s});
+        const Outcome made = test::dxl({u"completion"_s, shell});
         QCOMPARE(made.code, 0);
         script.write(made.out.toUtf8());
         script.close();
-        QProcess bash;
-        bash.start(u"bash"_s, {u"-uc"_s,
-                               u". \"$1\"; COMP_WORDS=($2); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _dxl; "
-                               u"printf '%s\\n' \"${COMPREPLY[@]}\""_s,
-                               u"bash"_s, script.fileName(), line});
-        QVERIFY(bash.waitForFinished());
-        QCOMPARE(QString::fromUtf8(bash.readAllStandardError()), QString());
-        const QStringList offered = QString::fromUtf8(bash.readAllStandardOutput()).split(u'\n', Qt::SkipEmptyParts);
-        for (const QString &word : offers.split(u' '))
+        QProcess process;
+        if (shell == u"bash") {
+            process.start(shell, {u"-uc"_s,
+                                  u". \"$1\"; COMP_WORDS=($2); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _dxl; "
+                                  u"printf '%s\n' \"${COMPREPLY[@]}\""_s,
+                                  shell, script.fileName(), line});
+        } else {
+            process.start(shell, {u"-N"_s, u"-c"_s, u"source $argv[1]; complete -C $argv[2]"_s, script.fileName(), line});
+        }
+        QVERIFY(process.waitForFinished());
+        QCOMPARE(QString::fromUtf8(process.readAllStandardError()), QString());
+        QStringList offered;
+        for (const QString &one : QString::fromUtf8(process.readAllStandardOutput()).split(u'\n', Qt::SkipEmptyParts))
+            offered << one.section(u'\t', 0, 0);
+        for (const QString &word : offers.split(u' ', Qt::SkipEmptyParts))
             QVERIFY2(offered.contains(word), qPrintable(word + u": "_s + offered.join(u' ')));
         QVERIFY2(!offered.contains(offersNot), qPrintable(offered.join(u' ')));
     }

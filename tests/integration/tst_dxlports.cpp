@@ -34,6 +34,7 @@ private slots:
     void forbiddenPort();
     void busyPort();
     void vanishedPort();
+    void controlHelpIsForPeople();
     void simTidiesUp();
     void simKeepsAFile();
     void simRefuses_data();
@@ -48,13 +49,16 @@ void TestDxlPorts::usage_data()
     QTest::addColumn<QString>("line");
     QTest::addColumn<QString>("says");
     QTest::newRow("nothing") << QString() << u"say what to do: scan"_s;
-    QTest::newRow("unknown command") << u"--port /dev/null dance"_s << u"dance"_s;
+    QTest::newRow("unknown command") << u"--port /dev/null dance"_s << u"there is no command \"dance\""_s;
+    QTest::newRow("unknown option") << u"--prot /dev/null ping 1"_s << u"--prot"_s;
     QTest::newRow("no ID") << u"--port /dev/null ping"_s << u"ID"_s;
     QTest::newRow("ID too large") << u"--port /dev/null ping 253"_s << u"253"_s;
     QTest::newRow("ID negative") << u"--port /dev/null ping -1"_s << u"-1"_s;
     QTest::newRow("ID a word") << u"--port /dev/null ping one"_s << u"one"_s;
     QTest::newRow("baud zero") << u"--port /dev/null --baud 0 ping 1"_s << u"0"_s;
     QTest::newRow("bauds") << u"--port /dev/null scan --bauds 57600,fast"_s << u"fast"_s;
+    QTest::newRow("the index of a rate") << u"--port /dev/null scan --bauds 57600,3"_s << u"\"3\" is not a baud rate in bits"_s;
+    QTest::newRow("the index as the rate") << u"--port /dev/null --baud 3 ping 1"_s << u"1200"_s;
     QTest::newRow("bauds empty") << u"--port /dev/null scan --bauds \"\""_s << u"--bauds"_s;
     QTest::newRow("IDs turned") << u"--port /dev/null scan --ids 9-3"_s << u"9-3"_s;
     QTest::newRow("IDs too far") << u"--port /dev/null scan --ids 0-253"_s << u"0-253"_s;
@@ -170,6 +174,18 @@ void TestDxlPorts::vanishedPort()
     const Outcome outcome = sim.dxl({u"ping"_s, u"1"_s});
     QCOMPARE(outcome.code, 1);
     QVERIFY2(outcome.err.contains(u"no port"), qPrintable(outcome.err));
+}
+
+void TestDxlPorts::controlHelpIsForPeople()
+{
+    const Outcome help = dxl({u"sim"_s, u"ctl"_s, u"--help"_s});
+    QVERIFY2(help.out.contains(u"Usage: dxl sim ctl PATH COMMAND...\n"), qPrintable(help.out));
+    QVERIFY2(help.out.contains(u"\n  push WHO TORQUE [SECONDS]: "), qPrintable(help.out));
+    const SimProcess sim(u"XM430-W350@57600:1"_s);
+    const Outcome lines = dxl({u"sim"_s, u"ctl"_s, sim.path(), u"help"_s});
+    QVERIFY2(lines.out.contains(u"\npush WHO TORQUE [SECONDS]: "), qPrintable(lines.out));
+    const Outcome document = dxl({u"--json"_s, u"sim"_s, u"ctl"_s, sim.path(), u"help"_s});
+    QVERIFY2(document.out.startsWith(u"[\"status: "), qPrintable(document.out));
 }
 
 void TestDxlPorts::simTidiesUp()

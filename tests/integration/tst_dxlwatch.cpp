@@ -195,6 +195,19 @@ private slots:
         QVERIFY(m_bus->sent().empty());
     }
 
+    void fullDiskIsAFailure()
+    {
+        if (!QFile::exists(u"/dev/full"_s))
+            QSKIP("no /dev/full here");
+        for (const QString &words : {u"read 1 moving"_s, u"--json ping 1"_s, u"watch 1 moving --rate max"_s}) {
+            int code = -1;
+            const QString said = inShell(Program + u" --timeout 400 --port "_s + m_bus->path() + u' ' + words
+                                             + u" > /dev/full"_s, &code);
+            QVERIFY2(said.startsWith(u"dxl: standard output can't be written: No space"), qPrintable(said));
+            QCOMPARE(code, 1);
+        }
+    }
+
     void progressIsForTerminals()
     {
         const QStringList scan{u"scan"_s, u"--bauds"_s, u"57600,1000000"_s, u"--ids"_s, u"0-3"_s};

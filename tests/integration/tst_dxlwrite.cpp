@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/protocol/parser.h"
+#include "tests/support/dxlbus.h"
+#include "tests/support/testmain.h"
+
+#include <QJsonArray>
+#include <QJsonDocument>
+
+using namespace Qt::StringLiterals;
+using namespace dynascope;
+using dynascope::test::DxlBus;
+using dynascope::test::isOneSentence;
+using dynascope::test::Outcome;
+
+/// `dxl write` to several devices, and where something goes wrong in the middle.
+class TestDxlWrite : public QObject
+{
+    Q_OBJECT
+
+private slots:
+    void init()
+    {
+        m_bus = std::make_unique<DxlBus>(u"XM430-W350@57600:1,XM430-W350@57600:2,XL430-W250@57600:4"_s);
+        QVERIFY(!m_bus->path().isEmpty());
+    }
+    void cleanup() { m_bus.reset(); }
+
+    void ramIsWrittenAtOnce()
+    {
+        const Outcome outcome = m_bus->dxl(u"write 1,2,4 torque_enable=on goal_position=90deg 65:1=1");
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.code, 0);
+        QString expected;
+        for (const int id : {1, 2, 4}) {
+            expected += u"ID %1: Torque Enable = 1 (On)\nID %1: Goal Position = 1024 (90.00 °)\nID %1: 65:1 = 1 (0x01)\n"_s
+                            .arg(id);
+        }
+        QCOMPARE(outcome.out, expected);
+        QCOMPARE(instructions(Instruction::SyncWrite), 3); // one a register
+        QCOMPARE(instructions(Instruction::Write), 0);
+    }
+
+    void eepromIsWrittenToOneAfterTheOther()
+    {
+        const Outcome outcome = m_bus->dxl(u"write 1,2 return_delay_time=0 led=on");
+        QCOMPARE(outcome.err, QString());
+        QVERIFY2(outcome.out.startsWith(u"ID 1: Return Delay Time = 0 (0 µs)\nID 1: LED = 1 (On)\nID 2: "),
+                 qPrintable(outcome.out));
+        QCOMPARE(instructions(Instruction::SyncWrite), 0);
+    }
+
+    void whoRefusesSaysWhy()
+    {
+        // Nobody answers a Sync Write: that the watchdog has tripped is said by the device to which it is written alone.
+        m_bus->call([](sim::SimulatedBus &bus, LineTime) {
+            bus.servo(2, 57600)->write(u"Bus Watchdog", 1);
+            bus.servo(2, 57600)->write(u"Torque Enable", 1);
+        });
+        QTRY_COMPARE(m_bus->value(2, 57600, u"Bus Watchdog"), -1);
+        const Outcome outcome = m_bus->dxl(u"--json write 1,2 led=on goal_position=90deg profile_velocity=10");
+        QCOMPARE(outcome.code, 1);
+        const QJsonArray all = QJsonDocument::fromJson(outcome.out.toUtf8()).array();
+        QVERIFY2(outcome.err.contains(u"ID 2: goal_position: device 2 refused: Data Range Error"), qPrintable(outcome.err));
+        QVERIFY2(outcome.err.contains(u"written before it: led"), qPrintable(outcome.err));
+        QVERIFY(all[0][u"raw"].toInt() == 1);
+        QCOMPARE(m_bus->value(1, 57600, u"Goal Position"), 1024); // the other is none the worse for it
+    }
+
+    void whoIsMuteIsToldAsWell()
+    {
+        m_bus->set(1, 57600, u"Status Return Level", 0);
+        const Outcome outcome = m_bus->dxl(u"write 1,2 led=on");
+        QCOMPARE(outcome.code, 3);
+        QCOMPARE(outcome.out, u"ID 2: LED = 1 (On)\n"_s);
+        QVERIFY2(outcome.err.contains(u"ID 1: led: sent, but not confirmed"), qPrintable(outcome.err));
+        QCOMPARE(m_bus->value(1, 57600, u"LED"), 1);
+    }
+
+    /// A limit that can't be read is no limit that isn't there.
+    void limitsThatAreNotHeard()
+    {
+        sim::LineFaults faults;
+        sim::ReplyFault lost;
+        lost.skip = 3; // Ping, Status Return Level, Operating Mode: then the limits are read
+        lost.times = -1;
+        faults.replies = {lost};
+        m_bus->call([&](sim::SimulatedBus &bus, LineTime) { bus.setFaults(faults); });
+        const Outcome outcome = test::dxl({u"--port"_s, m_bus->path(), u"--timeout"_s, u"100"_s, u"write"_s, u"1"_s,
+                                           u"goal_position=4096"_s});
+        QCOMPARE(outcome.code, 1);
+        QVERIFY2(isOneSentence(outcome.err) && outcome.err.contains(u"device 1 did not answer")
+                     && outcome.err.contains(u"nothing was written"),
+                 qPrintable(outcome.err));
+    }
+
+private:
+    /// How many packets of this instruction went over the wire.
+    int instructions(Instruction wanted)
+    {
+        Parser parser;
+        for (const Bytes &bytes : m_bus->sent())
+            parser.feed(bytes);
+        int count = 0;
+        while (const auto event = parser.next()) {
+            const auto *packet = std::get_if<Parser::Packet>(&*event);
+            count += packet && packet->instruction == wanted ? 1 : 0;
+        }
+        return count;
+    }
+
+    std::unique_ptr<DxlBus> m_bus;
+};
+
+DYNASCOPE_CORE_TEST(TestDxlWrite)
+#include "tst_dxlwrite.moc"
