@@ -2,12 +2,14 @@
 #include "app/dxl/assignment.h"
 
 #include "app/dxl/directjob.h"
+#include "app/dxl/noting.h"
 #include "app/dxl/showvalue.h"
 #include "core/bus/messages.h"
 #include "core/session/deviceplace.h"
 #include "core/table/units.h"
 
 #include <algorithm>
+#include <set>
 
 namespace dynascope::dxl {
 
@@ -117,33 +119,126 @@ Result<std::vector<Assignment>> prepare(Device &device, const std::vector<Regist
     return assignments;
 }
 
-Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment)
+namespace {
+
+RegisterChange changeOf(const Assignment &assignment)
 {
-    const int address = assignment.field ? assignment.field->address : assignment.argument.address;
-    const auto length = static_cast<int>(assignment.data.size());
+    if (assignment.field)
+        return dynascope::changeOf(*assignment.field, assignment.data);
+    return {{}, static_cast<std::uint16_t>(assignment.argument.address), false, {}, assignment.data, {}};
+}
+
+/// Registers that the span covers, and what else they may change.
+std::vector<const Field *> affectedBy(Device &device, const Assignment &assignment)
+{
+    if (assignment.field)
+        return affectedBy(device, *assignment.field);
+    std::set<const Field *> all;
+    const int begin = assignment.argument.address, end = begin + static_cast<int>(assignment.data.size());
+    for (const Field &field : device.table() ? device.table()->fields() : std::span<const Field>()) {
+        if (!field.isWritable() || field.address >= end || field.end() <= begin)
+            continue;
+        for (const Field *other : affectedBy(device, field)) {
+            if (other->address >= end || other->end() <= begin) // the span itself is noted as it is
+                all.insert(other);
+        }
+    }
+    return {all.begin(), all.end()};
+}
+
+/// ID or baud rate.
+Result<Bytes> moveNoted(const Work &work, Device &device, const Assignment &assignment)
+{
+    RegisterChange change = changeOf(assignment);
+    if (const auto old = device.read(*assignment.field))
+        change.before = bytesFromRaw(*assignment.field, *old);
+    JournalNote note = noteWrite(work, device, {std::move(change)});
+    if (const auto moved = move(device, assignment); !moved) {
+        note.failed(moved.error());
+        return tl::unexpected(moved.error());
+    }
+    note.moved(device.found());
+    return device.read(assignment.field->address, assignment.field->size);
+}
+
+/// Its own old value is in `change` where that can't be read any more.
+Result<Bytes> writeNoted(const Work &work, Device &device, const RegisterChange &change,
+                         const std::vector<const Field *> &affected)
+{
+    WriteFieldPlan plan;
+    plan.place.baudRate = device.found().baudRate;
+    plan.data = {device.id(), change.address, change.after};
+    if (device.table()) {
+        plan.sideEffects = spansOf(*device.table(), device.id(), [&affected](const Field &field) {
+            return std::ranges::find(affected, &field) != affected.end();
+        });
+    }
+    plan.before = plan.sideEffects;
+    if (change.before.empty())
+        plan.before.push_back({device.id(), change.address, static_cast<std::uint16_t>(change.after.size())});
+    JournalNote note = noteWrite(work, device, {change}, affected);
+    DirectJob job(device.bus());
+    const auto written = writeField(job, plan);
+    const auto before = written ? written->before : std::vector<PollValue>();
+    const auto after = written ? written->after : tl::unexpected(written.error());
+    if (!after) {
+        note.failed(after.error(), before);
+        return tl::unexpected(after.error());
+    }
+    note.done(before, *after);
+    return after->front().data;
+}
+
+/// Nothing can be read of a device that answers Ping alone.
+Result<void> sendNoted(const Work &work, const Device &device, const RegisterChange &change)
+{
+    JournalNote note = noteWrite(work, device, {change});
+    const auto sent = write(device.bus(), {device.id(), change.address, change.after});
+    JournalEntry outcome = note.entry();
+    outcome.state = sent ? JournalState::Unconfirmed : stateAfter(sent.error());
+    outcome.note = sent ? QString() : sent.error().text;
+    note.finish(outcome);
+    return sent;
+}
+
+/// With the old value of what decides whether anything can be read afterwards.
+RegisterChange changeNow(Device &device, const Assignment &assignment)
+{
+    RegisterChange change = changeOf(assignment);
+    const Field *level = device.table() ? device.table()->find(Known::StatusReturnLevel) : nullptr;
+    if (level && assignment.field == level && !device.isMute()) {
+        if (const auto old = device.read(*level))
+            change.before = bytesFromRaw(*level, *old);
+    }
+    return change;
+}
+
+} // namespace
+
+Result<Written> writeOne(const Work &work, Device &device, const Assignment &assignment)
+{
     Result<Bytes> back;
     if (moves(device, assignment)) {
-        if (const auto moved = move(device, assignment); !moved)
-            return tl::unexpected(moved.error());
-        back = device.read(address, length);
+        back = moveNoted(work, device, assignment);
     } else {
+        const RegisterChange change = changeNow(device, assignment);
+        const auto affected = affectedBy(device, assignment);
         if (assignment.field)
             device.learn(*assignment.field, assignment.raw);
-        const SpanData data{device.id(), static_cast<std::uint16_t>(address), assignment.data};
         if (device.isMute()) {
-            if (const auto sent = write(device.bus(), data); !sent)
+            if (const auto sent = sendNoted(work, device, change); !sent)
                 return tl::unexpected(sent.error());
-            showSent(output, device, assignment.field, assignment.argument, assignment.data);
+            showSent(work.output, device, assignment.field, assignment.argument, assignment.data);
             return Written::Sent;
         }
-        back = writeVerified(device.bus(), data);
+        back = writeNoted(work, device, change, affected);
     }
     if (!back)
         return tl::unexpected(back.error());
     if (assignment.argument.isByAddress())
-        showBytes(output, device, assignment.argument, *back);
+        showBytes(work.output, device, assignment.argument, *back);
     else
-        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *back));
+        showField(work.output, device, *assignment.field, rawFromBytes(*assignment.field, *back));
     return Written::ReadBack;
 }
 

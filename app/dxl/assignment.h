@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/commands.h"
 #include "app/dxl/device.h"
-#include "app/dxl/output.h"
 
 namespace dynascope::dxl {
 
@@ -26,7 +26,7 @@ Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignme
 enum class Written { ReadBack, Sent };
 
 /// One write, verified and printed as it was read back, as far as the device lets itself be read. A change of ID or
-/// baud rate is followed.
-Result<Written> writeOne(Output &output, Device &device, const Assignment &assignment);
+/// baud rate is followed. The journal has it.
+Result<Written> writeOne(const Work &work, Device &device, const Assignment &assignment);
 
 } // namespace dynascope::dxl

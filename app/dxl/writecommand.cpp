@@ -29,7 +29,7 @@ Result<void> writeAll(const Work &work, Device &device, const std::vector<Assign
         return there;
     device.forget();
     for (std::size_t i = 0; i < assignments.size(); ++i) {
-        const auto written = writeOne(work.output, device, assignments[i]);
+        const auto written = writeOne(work, device, assignments[i]);
         if (!written) {
             code =
                 showFailure(work.output, device, assignments[i].argument, written.error(), doneBefore(assignments, i));

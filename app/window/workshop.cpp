@@ -34,6 +34,12 @@ QString schemeName(ColorScheme scheme)
     return QStringLiteral("system");
 }
 
+/// Pictures leave nothing behind.
+bool isPicture(const WindowOptions &options)
+{
+    return !options.picture.isEmpty() || !options.pictureDirectory.isEmpty();
+}
+
 } // namespace
 
 Workshop::Workshop(QApplication &application, const WindowOptions &options)
@@ -41,7 +47,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_catalog(loadCatalog())
     , m_lines(m_catalog)
     , m_session(m_lines, m_catalog)
-    , m_commands(m_session)
+    , m_journal(isPicture(options) ? QString() : Journal::usualFolder())
+    , m_commands(m_session, &m_journal)
     , m_monitor(m_session)
     , m_stop(m_session, m_commands)
 {
@@ -56,7 +63,6 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
         if (demo && !m_stop.isActive())
             demo->resume();
     });
-    Q_UNUSED(options)
 }
 
 Workshop::~Workshop() = default;

@@ -3,6 +3,7 @@
 
 #include "app/window/lines.h"
 #include "app/window/options.h"
+#include "core/session/journal/journal.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
 #include "core/session/monitor.h"
@@ -35,6 +36,7 @@ private:
     Catalog m_catalog;
     Lines m_lines;
     Session m_session;
+    Journal m_journal;
     Commands m_commands;
     Monitor m_monitor;
     Scanner m_scanner;

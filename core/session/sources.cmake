@@ -5,6 +5,11 @@ target_sources(dynascope_core PRIVATE
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
     session/history.cpp session/history.h
+    session/journal/journal.cpp session/journal/journal.h
+    session/journal/journalentry.cpp session/journal/journalentry.h
+    session/journal/journalfile.cpp session/journal/journalfile.h
+    session/journal/journalnote.cpp session/journal/journalnote.h
+    session/journal/journalwrites.cpp session/journal/journalwrites.h
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
