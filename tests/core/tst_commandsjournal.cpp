@@ -10,10 +10,7 @@ using namespace Qt::StringLiterals;
 namespace {
 
 struct World {
-    explicit World(const Catalog &catalog)
-        : all(catalog, u"XM430-W350@57600:1,XL430-W250@57600:2"_s, &journal)
-    {
-    }
+    explicit World(const Catalog &catalog) : all(catalog, u"XM430-W350@57600:1,XL430-W250@57600:2"_s, &journal) { }
 
     Device &device(int id, int baudRate = 57600)
     {
@@ -67,8 +64,8 @@ private slots:
         QCOMPARE(world.last().state, JournalState::Done);
         QCOMPARE(world.last().by, JournalAuthor::Window);
         QCOMPARE(world.last().changes.front().shown, Bytes({33, 0, 0, 0}));
-        QCOMPARE(world.last().device, (JournalDevice{u"virtual"_s, {}, u"XM430-W350"_s, 1020,
-                                                     world.device(1).firmware(), 1, 57600}));
+        QCOMPARE(world.last().device,
+                 (JournalDevice{u"virtual"_s, {}, u"XM430-W350"_s, 1020, world.device(1).firmware(), 1, 57600}));
         QVERIFY(!world.write(1, u"Moving Threshold", 5000)); // refused before anything is sent
         QCOMPARE(world.journal.entries().size(), std::size_t(1));
     }
@@ -95,7 +92,8 @@ private slots:
             world.all.commands.setTorque({&world.device(1), &world.device(2)}, true, done);
         }));
         QCOMPARE(world.journal.entries().size(), std::size_t(2));
-        QCOMPARE(texts(world.journal.entries().front()).constFirst(), u"Torque Enable: 0 -> 1"_s.replace(u"0 "_s, u"? "_s));
+        QCOMPARE(texts(world.journal.entries().front()).constFirst(),
+                 u"Torque Enable: 0 -> 1"_s.replace(u"0 "_s, u"? "_s));
         QCOMPARE(world.last().state, JournalState::Done);
         QCOMPARE(world.last().device.id, 2);
         QVERIFY(world.run([&](const auto &done) { world.all.commands.setTorque({&world.device(1)}, false, done); }));

@@ -70,7 +70,8 @@ private slots:
         entry.undoes = 3;
         const QByteArray line = toJson(entry);
         QVERIFY(!line.contains('\n'));
-        QVERIFY2(line.contains("\"old\":0") && line.contains("\"new\":-2") && line.contains("\"0102030405\""), line.constData());
+        QVERIFY2(line.contains("\"old\":0") && line.contains("\"new\":-2") && line.contains("\"0102030405\""),
+                 line.constData());
         const auto read = journalEntryFromJson(line);
         QVERIFY2(read, read ? "" : qPrintable(read.error().text));
         QCOMPARE(*read, entry);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto DragPause = 1500ms; ///< a goal written later than that is another order
+constexpr auto DragPause = 1500ms;    ///< a goal written later than that is another order
 constexpr auto SaveInterval = 1000ms; ///< of a drag that goes on
 
 bool isOneGoal(const JournalEntry &entry)
@@ -171,8 +171,8 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
     entry.note = outcome.note;
     if (isContinued && outcome.state == JournalState::Failed) { // what was written before it stands
         entry.state = known->state;
-        entry.changes.front().after = entry.changes.front().shown.empty() ? entry.changes.front().after
-                                                                          : entry.changes.front().shown;
+        entry.changes.front().after =
+            entry.changes.front().shown.empty() ? entry.changes.front().after : entry.changes.front().shown;
     } else if (isContinued) { // what was there at its beginning stays
         for (const RegisterChange &change : outcome.changes) {
             const auto same = std::ranges::find_if(

@@ -28,8 +28,8 @@ public:
         Newest, ///< enough to go on from, for who only adds to it
     };
     /// `folder` empty: in memory only.
-    explicit Journal(const QString &folder = {}, Reading reading = Reading::All,
-                     const JournalFile::Bounds &bounds = {}, QObject *parent = nullptr);
+    explicit Journal(const QString &folder = {}, Reading reading = Reading::All, const JournalFile::Bounds &bounds = {},
+                     QObject *parent = nullptr);
     ~Journal() override;
 
     /// Where all programs of this project keep theirs, in the user's data.
@@ -37,9 +37,9 @@ public:
 
     const std::deque<JournalEntry> &entries() const { return m_entries; } ///< by number
     const JournalEntry *entry(qint64 number) const;
-    const QString &run() const { return m_run; } ///< of this program
+    const QString &run() const { return m_run; }         ///< of this program
     const QString &problem() const { return m_problem; } ///< why the file isn't written; empty: it is
-    void refresh(); ///< takes in what other programs have noted meanwhile
+    void refresh();                                      ///< takes in what other programs have noted meanwhile
 
     /// Notes what is about to be written and gives it its number and time. A goal that is written again soon after, with
     /// nothing between, continues its entry: a drag is one, from the first old value to the last new one.
@@ -69,7 +69,7 @@ private:
     QString m_problem;
     std::unique_ptr<JournalFile> m_file; ///< nullptr: in memory only
     std::deque<JournalEntry> m_entries;
-    qint64 m_drag = 0;      ///< the entry that may be continued; 0: none
+    qint64 m_drag = 0; ///< the entry that may be continued; 0: none
     bool m_dragUnsaved = false;
     QDateTime m_dragSaved, m_dragAt;
     QTimer m_dragEnd;

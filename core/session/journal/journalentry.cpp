@@ -68,7 +68,8 @@ std::optional<Bytes> bytesOf(const QJsonValue &value, std::size_t size)
         const double end = std::ldexp(1.0, static_cast<int>(8 * size));
         if (!(number >= -end / 2 && number < end) || std::floor(number) != number)
             return std::nullopt;
-        appendLittleEndian(bytes, static_cast<std::uint32_t>(static_cast<std::int64_t>(number)), static_cast<int>(size));
+        appendLittleEndian(bytes, static_cast<std::uint32_t>(static_cast<std::int64_t>(number)),
+                           static_cast<int>(size));
         return bytes;
     }
     const QByteArray digits = value.toString().toLatin1();

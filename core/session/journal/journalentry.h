@@ -71,10 +71,10 @@ struct JournalEntry {
     JournalAuthor by = JournalAuthor::Window;
     JournalState state = JournalState::Begun;
     JournalDevice device;
-    std::vector<RegisterChange> changes;  ///< of a write: first what was asked for, then what it changed besides
-    std::optional<JournalPlace> movedTo;  ///< where the device stands afterwards, where that is elsewhere
-    QString note;                         ///< why it failed, which reset it was, a packet's bytes
-    qint64 undoes = 0, redoes = 0;        ///< the entry that it takes back or carries out again; 0: none
+    std::vector<RegisterChange> changes; ///< of a write: first what was asked for, then what it changed besides
+    std::optional<JournalPlace> movedTo; ///< where the device stands afterwards, where that is elsewhere
+    QString note;                        ///< why it failed, which reset it was, a packet's bytes
+    qint64 undoes = 0, redoes = 0;       ///< the entry that it takes back or carries out again; 0: none
 
     friend bool operator==(const JournalEntry &, const JournalEntry &) = default;
 };

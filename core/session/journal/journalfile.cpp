@@ -9,7 +9,7 @@
 namespace dynascope {
 namespace {
 
-constexpr int LockPatience = 300; ///< ms; a line takes less than one
+constexpr int LockPatience = 300;   ///< ms; a line takes less than one
 constexpr int LongestWait = 10'000; ///< ms; whoever holds the lock longer has died
 
 tl::unexpected<Error> unwritable(const QString &path, const QString &why)
@@ -19,11 +19,7 @@ tl::unexpected<Error> unwritable(const QString &path, const QString &why)
 
 } // namespace
 
-JournalFile::JournalFile(QString folder, const Bounds &bounds)
-    : m_folder(std::move(folder))
-    , m_bounds(bounds)
-{
-}
+JournalFile::JournalFile(QString folder, const Bounds &bounds) : m_folder(std::move(folder)), m_bounds(bounds) { }
 
 QString JournalFile::path(int number) const
 {

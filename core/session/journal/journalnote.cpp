@@ -6,8 +6,7 @@
 namespace dynascope {
 
 JournalNote::JournalNote(Journal *journal, JournalEntry entry, const std::vector<const Field *> &affected)
-    : m_journal(journal)
-    , m_entry(std::move(entry))
+    : m_journal(journal), m_entry(std::move(entry))
 {
     if (!m_journal)
         return;

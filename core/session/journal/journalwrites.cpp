@@ -20,7 +20,10 @@ JournalDevice journalDevice(const Found &found, const QString &model, const QStr
 {
     // A link may stand for the port: /dev/serial/by-id/...
     const QString port = line.startsWith(u'/') ? QFileInfo(QFileInfo(line).canonicalFilePath()).fileName() : QString();
-    return {line, port.isEmpty() ? QString() : usbIdentity(port).identity, model, found.modelNumber, found.firmware, found.id, found.baudRate};
+    return {line,           port.isEmpty() ? QString() : usbIdentity(port).identity,
+            model,          found.modelNumber,
+            found.firmware, found.id,
+            found.baudRate};
 }
 
 JournalDevice journalDevice(const Device &device)
