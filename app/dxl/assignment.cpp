@@ -49,36 +49,6 @@ Result<Assignment> prepareOne(Device &device, const RegisterArgument &argument)
     return Assignment{argument, *field, *raw, bytesFromRaw(**field, *raw)};
 }
 
-/// After a change of ID or baud rate the device answers elsewhere: such writes are procedures, which look for it there.
-Result<void> move(Device &device, const Assignment &assignment)
-{
-    DirectJob job(device.bus());
-    const DevicePlace place = placeOf(device.found(), *device.table(), device.name());
-    Result<Found> found;
-    if (normalizedName(assignment.field->name) == u"id") {
-        found = changeId(job, {place, static_cast<std::uint8_t>(assignment.raw), assignment.field->address, false});
-    } else {
-        const int rate = device.table()->baudRate(static_cast<int>(assignment.raw)).value(); // moves() has looked
-        const auto code = static_cast<std::uint8_t>(assignment.raw);
-        found = changeBaud(job, {place, rate, code, assignment.field->address, false});
-    }
-    return found ? device.follow(*found) : Result<void>(tl::unexpected(found.error()));
-}
-
-bool moves(Device &device, const Assignment &assignment)
-{
-    if (!assignment.field)
-        return false;
-    const bool isId = assignment.field == device.table()->find(u"ID");
-    if (!isId && assignment.field != device.table()->find(u"Baud Rate"))
-        return false;
-    // By address also what the table doesn't know may be sent; it leads to no place that one could look at.
-    if (isId ? assignment.raw > MaximumId : !device.table()->baudRate(static_cast<int>(assignment.raw)))
-        return false;
-    const auto present = device.read(*assignment.field);
-    return !present || *present != assignment.raw;
-}
-
 /// A span that changes ID or baud rate among others would leave open where to look for the device.
 Result<void> checkSpans(Device &device, const std::vector<Assignment> &assignments)
 {
@@ -118,60 +88,6 @@ Result<std::vector<Assignment>> prepare(Device &device, const std::vector<Regist
     if (const auto clear = checkSpans(device, assignments); !clear)
         return tl::unexpected(clear.error());
     return assignments;
-}
-
-Result<Written> writeOne(Device &device, const Assignment &assignment)
-{
-    const SpanData data = assignment.to(device);
-    if (moves(device, assignment)) {
-        if (const auto moved = move(device, assignment); !moved)
-            return tl::unexpected(moved.error());
-        return device.read(data.address, static_cast<int>(data.data.size()));
-    }
-    if (assignment.field)
-        device.learn(*assignment.field, assignment.raw);
-    if (!device.isMute())
-        return writeVerified(device.bus(), data);
-    const auto sent = write(device.bus(), data);
-    return sent ? Result<Written>(std::nullopt) : tl::unexpected(sent.error());
-}
-
-std::vector<Result<Written>> writeTogether(Bus &bus, const std::vector<AssignedTo> &all)
-{
-    std::vector<SpanData> writes;
-    std::vector<Span> spans;
-    std::vector<std::size_t> readable; ///< of `all`
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const AssignedTo &one = all[i];
-        writes.push_back(one.assignment->to(*one.device));
-        one.device->learn(*one.assignment->field, one.assignment->raw);
-        if (one.device->isMute())
-            continue;
-        readable.push_back(i);
-        spans.push_back({writes[i].id, writes[i].address, static_cast<std::uint16_t>(writes[i].data.size())});
-    }
-    if (const auto sent = writeMany(bus, writes); !sent)
-        return std::vector<Result<Written>>(all.size(), tl::unexpected(sent.error()));
-    std::vector<Result<Written>> outcomes(all.size(), Written());
-    const auto shown = readMany(bus, spans);
-    for (std::size_t place = 0; place < readable.size(); ++place) {
-        const std::size_t i = readable[place];
-        if (shown && (*shown)[place] && (*shown)[place]->data == writes[i].data)
-            outcomes[i] = writes[i].data;
-        else
-            outcomes[i] = writeVerified(bus, writes[i]);
-    }
-    return outcomes;
-}
-
-void showWritten(Output &output, Device &device, const Assignment &assignment, const Written &written)
-{
-    if (!written)
-        showSent(output, device, assignment.field, assignment.argument, assignment.data);
-    else if (assignment.argument.isByAddress())
-        showBytes(output, device, assignment.argument, *written);
-    else
-        showField(output, device, *assignment.field, rawFromBytes(*assignment.field, *written));
 }
 
 Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments)

@@ -3,9 +3,6 @@
 
 #include "app/dxl/arguments.h"
 #include "app/dxl/device.h"
-#include "app/dxl/output.h"
-
-#include <optional>
 
 namespace dynascope::dxl {
 
@@ -30,21 +27,5 @@ Result<std::vector<Assignment>> prepare(Device &device, const std::vector<Regist
 
 /// EEPROM is locked under torque: refused before the first write, not in the middle of several.
 Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignments);
-
-/// What was read back; nothing where the device lets nothing be read.
-using Written = std::optional<Bytes>;
-
-/// One write, verified. A change of ID or baud rate is followed.
-Result<Written> writeOne(Device &device, const Assignment &assignment);
-
-struct AssignedTo {
-    Device *device = nullptr;
-    const Assignment *assignment = nullptr; ///< isInRam()
-};
-/// One register of each device, all in one packet, so that joints set off together. Who doesn't show it afterwards is
-/// written to alone, and so says why. An outcome for each.
-std::vector<Result<Written>> writeTogether(Bus &bus, const std::vector<AssignedTo> &all);
-
-void showWritten(Output &output, Device &device, const Assignment &assignment, const Written &written);
 
 } // namespace dynascope::dxl

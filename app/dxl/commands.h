@@ -6,6 +6,10 @@
 #include "app/dxl/output.h"
 #include "core/table/catalog.h"
 
+namespace dynascope {
+class Journal;
+}
+
 namespace dynascope::dxl {
 
 /// What a command on a line works with.
@@ -14,6 +18,7 @@ struct Work {
     const Catalog &catalog;
     Bus &bus;
     Output &output;
+    Journal &journal; ///< every write is noted there
 };
 
 /// @name Commands on a line. They print results and failures themselves.

@@ -6,6 +6,7 @@
 #include "app/dxl/interrupt.h"
 #include "app/dxl/modelscommand.h"
 #include "core/bus/seriallinefactory.h"
+#include "core/session/journal/journal.h"
 #include "core/table/usertables.h"
 
 namespace dynascope::dxl {
@@ -40,6 +41,23 @@ ExitCode performOnLine(const Work &work)
     return ExitCode::Usage;
 }
 
+/// The demo behind "sim" ends with this program, and what was written to it, too.
+bool isJournalled(const Options &options)
+{
+    switch (options.command) {
+    case Command::Backup:
+    case Command::Clear:
+    case Command::Led:
+    case Command::Packet:
+    case Command::Reboot:
+    case Command::Reset:
+    case Command::Stop:
+    case Command::Torque:
+    case Command::Write: return options.port != QLatin1String("sim");
+    default: return false;
+    }
+}
+
 ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &output)
 {
     heedSignals();
@@ -53,7 +71,10 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
     const auto connection = Connection::open(catalog, options);
     if (!connection)
         return output.fail(connection.error());
-    return performOnLine({options, catalog, (*connection)->bus(), output});
+    Journal journal(isJournalled(options) ? Journal::usualFolder() : QString(), Journal::Reading::Newest);
+    QObject::connect(&journal, &Journal::failed,
+                     [&output](const QString &why) { output.note(why + QStringLiteral("; what is written is not noted")); });
+    return performOnLine({options, catalog, (*connection)->bus(), output, journal});
 }
 
 ExitCode perform(const Options &options, Output &output)

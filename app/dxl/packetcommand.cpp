@@ -3,6 +3,7 @@
 #include "app/dxl/packettext.h"
 #include "app/dxl/target.h"
 #include "core/bus/timing.h"
+#include "core/session/journal/journalnote.h"
 #include "core/protocol/parser.h"
 
 #include <algorithm>
@@ -143,6 +144,38 @@ Document sentDocument(ByteView packet, const QString &text)
     return document.add("hex", hexText(packet)).add("text", text);
 }
 
+/// May it change anything?
+bool onlyAsks(const Parser::Packet &packet)
+{
+    if (packet.isStatus())
+        return false;
+    switch (packet.request().instruction) {
+    case Instruction::Ping:
+    case Instruction::Read:
+    case Instruction::SyncRead:
+    case Instruction::BulkRead:
+    case Instruction::FastSyncRead:
+    case Instruction::FastBulkRead: return true;
+    default: return false;
+    }
+}
+
+/// What it changes is not looked into: as bytes.
+void noteSent(const Work &work, ByteView packet, std::uint8_t id)
+{
+    constexpr std::size_t Longest = 300; // bytes; the journal is for people
+    JournalEntry entry;
+    entry.kind = JournalKind::Packet;
+    entry.by = JournalAuthor::CommandLine;
+    entry.device.line = work.options.port;
+    entry.device.id = id <= BroadcastId ? id : 0;
+    entry.device.baudRate = work.bus.line().baudRate();
+    entry.note = hexText(packet.first(std::min(packet.size(), Longest)));
+    JournalNote note(&work.journal, entry);
+    entry.state = JournalState::Unconfirmed;
+    note.finish(entry);
+}
+
 } // namespace
 
 ExitCode packetCommand(const Work &work)
@@ -158,6 +191,8 @@ ExitCode packetCommand(const Work &work)
     // Past the bus, which would discard what comes before it begins to wait.
     if (const auto sent = work.bus.line().write(packet); !sent)
         return work.output.fail(sent.error());
+    if (!known || !onlyAsks(*known))
+        noteSent(work, packet, packet.size() > 4 ? packet[4] : 0);
     Listener listener(work, due);
     const auto heard = listener.listen();
     if (!heard)

@@ -2,6 +2,7 @@
 // Reboot, Factory Reset, Clear and Control Table Backup: a device is away for a while, or stands elsewhere afterwards.
 #include "app/dxl/commands.h"
 #include "app/dxl/directjob.h"
+#include "app/dxl/noting.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
 #include "app/dxl/terminal.h"
@@ -131,7 +132,9 @@ Result<void> rebootOne(const Work &work, Device &device)
 {
     const DevicePlace place = placeOf(device);
     // The status of Reboot may be missing or cut off by it.
+    JournalNote note = noteEvent(work, device, JournalKind::Reboot);
     const auto sent = reboot(work.bus, device.id());
+    finish(note, sent);
     if (!sent && !mayHaveArrived(sent.error()))
         return sent;
     if (!sent) { // whoever restarts is silent now
@@ -159,8 +162,12 @@ Result<void> resetOne(const Work &work, Device &device)
         return tl::unexpected(after.error());
     const FactoryResetPlan plan{placeOf(device), work.options.reset, *after};
     DirectJob job(work.bus);
-    if (const auto sent = resetToFactory(job, plan); !sent)
+    JournalNote note = noteEvent(work, device, JournalKind::FactoryReset, resetName(plan.option));
+    if (const auto sent = resetToFactory(job, plan); !sent) {
+        note.failed(sent.error());
         return sent;
+    }
+    note.moved({plan.after.id, plan.after.baudRate, plan.after.modelNumber, 0, false, {}});
     LineTime took{};
     const auto found = awaitReturn(work.bus, plan.place, plan.after, took);
     if (!found)
@@ -187,9 +194,13 @@ Result<void> resetOne(const Work &work, Device &device)
 
 Result<void> clearOne(const Work &work, Device &device)
 {
-    if (const auto cleared = clear(work.bus, device.id(), work.options.clear); !cleared)
-        return cleared;
     const bool position = work.options.clear == ClearOption::Position;
+    JournalNote note = noteEvent(work, device, JournalKind::Clear,
+                                 position ? QStringLiteral("position") : QStringLiteral("error"));
+    const auto cleared = clear(work.bus, device.id(), work.options.clear);
+    finish(note, cleared);
+    if (!cleared)
+        return cleared;
     const Field *field = device.table() && position ? device.table()->find(Known::PresentPosition) : nullptr;
     if (field) {
         const auto raw = device.read(*field);
@@ -213,7 +224,9 @@ Result<void> backupOne(const Work &work, Device &device)
                                                     .arg(device.name())
                                                     .arg(device.found().firmware));
     }
+    JournalNote note = noteEvent(work, device, restore ? JournalKind::Restore : JournalKind::Backup);
     const auto done = backup(work.bus, device.id(), work.options.backup);
+    finish(note, done);
     if (!done && (!restore || !mayHaveArrived(done.error())))
         return done;
     if (restore) {

@@ -3,6 +3,7 @@
 // else after a device's own Ping, or that of all. Never blindly: 64 is EEPROM in some series.
 #include "app/dxl/commands.h"
 #include "app/dxl/target.h"
+#include "core/session/journal/journalnote.h"
 #include "core/bus/operations.h"
 #include "core/bus/stopsequence.h"
 
@@ -130,6 +131,20 @@ void show(const Work &work, const Joint &joint, const StopOutcome &outcome)
         document);
 }
 
+/// Noted once it has been sent: nothing waits for a file.
+void noteStop(const Work &work, const Joint &joint, const StopOutcome &outcome)
+{
+    JournalEntry entry;
+    entry.by = JournalAuthor::Stop;
+    entry.device = journalDevice(joint.found, joint.model, work.options.port);
+    entry.changes = {{nameOf(Known::TorqueEnable).toString(), *joint.torqueAddress, false, {}, {0}, {}}};
+    JournalNote note(&work.journal, entry);
+    entry.state = outcome.off ? JournalState::Done : JournalState::Unconfirmed;
+    if (outcome.off)
+        entry.changes.front().shown = {0};
+    note.finish(entry);
+}
+
 ExitCode worse(ExitCode one, ExitCode other)
 {
     return one == ExitCode::Failed || other == ExitCode::Done ? one : other;
@@ -152,6 +167,8 @@ ExitCode verify(const Work &work, const Stopping &stopping)
         else
             outcome.text = QStringLiteral("sent, but nobody looked whether it is off");
         show(work, joint, outcome);
+        if (joint.torqueAddress)
+            noteStop(work, joint, outcome);
         if (!outcome.off)
             code = worse(code, joint.torqueAddress ? ExitCode::Unconfirmed : ExitCode::Failed);
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/dxl/assignment.h"
-#include "app/dxl/commands.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
+#include "app/dxl/writing.h"
 
 #include <algorithm>
 
@@ -54,7 +53,7 @@ Result<void> writeAll(const Work &work, Writing &writing, ExitCode &code)
         return there;
     writing.device->forget();
     for (std::size_t i = 0; i < writing.assignments.size() && writing.isGoingOn(); ++i) {
-        writing.outcomes.push_back(writeOne(*writing.device, writing.assignments[i]));
+        writing.outcomes.push_back(writeOne(work, *writing.device, writing.assignments[i]));
         if (const auto shown = show(work, writing, i, code); !shown)
             return shown;
     }
@@ -75,7 +74,7 @@ ExitCode writeAtOnce(const Work &work, std::vector<Writing> &writings)
             going.push_back(&writing);
             assigned.push_back({writing.device, &writing.assignments[i]});
         }
-        const auto outcomes = writeTogether(work.bus, assigned);
+        const auto outcomes = writeTogether(work, assigned);
         for (std::size_t place = 0; place < going.size(); ++place)
             going[place]->outcomes.push_back(outcomes[place]);
     }

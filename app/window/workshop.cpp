@@ -34,6 +34,12 @@ QString schemeName(ColorScheme scheme)
     return QStringLiteral("system");
 }
 
+/// Pictures leave nothing behind.
+bool isPicture(const WindowOptions &options)
+{
+    return !options.picture.isEmpty() || !options.pictureDirectory.isEmpty();
+}
+
 } // namespace
 
 Workshop::Workshop(QApplication &application, const WindowOptions &options)
@@ -42,7 +48,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_tables(addUserTables(m_catalog, userTablesFolder()))
     , m_lines(m_catalog)
     , m_session(m_lines, m_catalog)
-    , m_commands(m_session)
+    , m_journal(isPicture(options) ? QString() : Journal::usualFolder())
+    , m_commands(m_session, &m_journal)
     , m_monitor(m_session)
     , m_stop(m_session, m_commands)
 {
@@ -59,7 +66,6 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
         if (demo && !m_stop.isActive())
             demo->resume();
     });
-    Q_UNUSED(options)
 }
 
 Workshop::~Workshop() = default;

@@ -3,6 +3,7 @@
 
 #include "app/window/lines.h"
 #include "app/window/options.h"
+#include "core/session/journal/journal.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
 #include "core/session/monitor.h"
@@ -37,6 +38,7 @@ private:
     UserTables m_tables; ///< what came of a person's own
     Lines m_lines;
     Session m_session;
+    Journal m_journal;
     Commands m_commands;
     Monitor m_monitor;
     Scanner m_scanner;

@@ -5,57 +5,35 @@
 #include "core/table/units.h"
 
 #include <algorithm>
-#include <set>
+#include <memory>
 
 namespace dynascope {
 namespace {
 
-constexpr int LargestGap = 8; ///< bytes that are cheaper to read through than to ask again
-
-/// What a write to this field may have moved: the registers it resets, torque that a goal turned on, or nothing.
-std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
+std::function<bool(const Field &)> among(const std::vector<const Field *> &fields, const Field *also = nullptr)
 {
-    if (&field == device.table().find(Known::TorqueEnable)) {
-        return spansOf(device, [](const Field &other) { return isGoal(other); });
-    }
-    if (isGoal(field) && device.goalTurnsTorqueOn() && !device.isTorqueOn()) {
-        const Field *torque = device.table().find(Known::TorqueEnable);
-        return spansOf(device, [torque](const Field &other) { return &other == torque; });
-    }
-    if (field.resets.isEmpty())
-        return {};
-    return spansOf(device, [&field](const Field &other) { return field.resets.contains(other.name); });
+    return [&fields, also](const Field &field) {
+        return &field == also || std::ranges::find(fields, &field) != fields.end();
+    };
+}
+
+/// What a write to this field may move now.
+std::vector<const Field *> affectedNow(const Device &device, const Field &field)
+{
+    return affectedBy(device.table(), field, device.goalTurnsTorqueOn() && !device.isTorqueOn());
 }
 
 } // namespace
 
-bool isGoal(const Field &field)
-{
-    return field.name.startsWith(QLatin1String("Goal "));
-}
-
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
 {
-    std::vector<Span> spans;
-    for (const Field &field : device.table().fields()) {
-        if (!wanted(field))
-            continue;
-        if (!spans.empty()) {
-            Span &last = spans.back();
-            const int end = last.address + last.length;
-            if (field.address - end <= LargestGap && field.end() - last.address <= longest) {
-                last.length = static_cast<std::uint16_t>(field.end() - last.address);
-                continue;
-            }
-        }
-        spans.push_back({device.id(), field.address, field.size});
-    }
-    return spans;
+    return spansOf(device.table(), device.id(), wanted, longest);
 }
 
-Commands::Commands(Session &session, QObject *parent)
+Commands::Commands(Session &session, Journal *journal, QObject *parent)
     : QObject(parent)
     , m_session(session)
+    , m_journal(journal)
 {
 }
 
@@ -84,7 +62,7 @@ Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int
 {
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
     // Indirect Data may point at a goal or at Torque Enable.
-    const bool mayMove = isGoal(field) || field.name.startsWith(QLatin1String("Indirect Data"))
+    const bool mayMove = isGoal(field) || isIndirectData(field)
         || (&field == device.table().find(Known::TorqueEnable) && raw != 0);
     if (m_stopped && mayMove)
         return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
@@ -113,15 +91,70 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
     m_writes[{device.key(), fieldIndex}] = std::nullopt;
     device.setPending(fieldIndex, raw);
+    const std::vector<const Field *> affected = affectedNow(device, field);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
-                        sideEffectsOf(device, field),
-                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0};
-    device.line()->bus().run<std::vector<PollValue>>(
+                        spansOf(device, among(affected)),
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {}};
+    // Torque off waits for no Read, and of a drag the old value is known.
+    const bool isTorqueOff = &field == device.table().find(Known::TorqueEnable) && raw == 0;
+    const bool isDrag = m_journal && m_journal->continues(journalDevice(device), changeOf(field, raw));
+    if (m_journal && !isTorqueOff && !isDrag)
+        plan.before = spansOf(device, among(affected, &field));
+    device.line()->bus().run<WrittenField>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
-        [this, key = device.key(), fieldIndex, raw,
-         done = std::move(done)](const Result<std::vector<PollValue>> &values) {
+        [this, key = device.key(), fieldIndex, raw, note = noteWrite(device, field, raw, affected),
+         done = std::move(done)](const Result<WrittenField> &written) mutable {
+            const auto values = written ? written->after : tl::unexpected(written.error());
+            const std::span<const PollValue> before = written ? written->before : std::span<const PollValue>();
+            if (values)
+                note.done(before, *values);
+            else
+                note.failed(values.error(), before);
             finishWrite(key, fieldIndex, raw, values, done);
         });
+}
+
+/// The old value as last seen: what is read before the write replaces it.
+JournalNote Commands::noteWrite(const Device &device, const Field &field, std::int64_t raw,
+                                const std::vector<const Field *> &affected) const
+{
+    if (!m_journal)
+        return {};
+    JournalEntry entry;
+    entry.device = journalDevice(device);
+    entry.changes = {changeOf(field, raw)};
+    if (const auto old = device.value(device.table().indexOf(&field)).raw)
+        entry.changes.front().before = bytesFromRaw(field, *old);
+    return {m_journal, std::move(entry), affected};
+}
+
+/// A change of ID or baud rate, for which torque may be turned off first.
+JournalNote Commands::noteMove(const Device &device, const Field &field, std::int64_t raw, bool turnTorqueOff) const
+{
+    if (!m_journal)
+        return {};
+    JournalEntry entry;
+    entry.device = journalDevice(device);
+    const int here = &field == device.table().find(Known::Id)
+                         ? device.id() : device.table().baudCode(device.baudRate()).value_or(-1);
+    entry.changes = {changeOf(field, raw)};
+    if (here >= 0)
+        entry.changes.front().before = bytesFromRaw(field, here);
+    const Field *torque = device.table().find(Known::TorqueEnable);
+    if (turnTorqueOff && torque && device.isTorqueOn()) {
+        entry.changes.push_back(changeOf(*torque, 0));
+        entry.changes.back().before = bytesFromRaw(*torque, 1);
+    }
+    return {m_journal, std::move(entry)};
+}
+
+JournalNote Commands::noteEvent(const Device &device, JournalKind kind, const QString &what) const
+{
+    JournalEntry entry;
+    entry.kind = kind;
+    entry.device = journalDevice(device);
+    entry.note = what;
+    return {m_journal, std::move(entry)};
 }
 
 void Commands::finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw,
@@ -182,19 +215,26 @@ void Commands::readAll(Device &device, Done done)
         });
 }
 
+/// One for each line and baud rate; `done` comes once, after the last, with the first failure there was.
+struct Commands::TorqueJob {
+    struct Outcome {
+        int jobs = 0;
+        Result<void> result;
+        Done done;
+    };
+    bool on = false;
+    std::vector<DeviceKey> keys;
+    std::vector<JournalNote> notes; ///< one for each
+    std::shared_ptr<Outcome> outcome;
+};
+
 void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done done)
 {
     if (on && m_stopped) {
         return refuse(devices.empty() ? nullptr : devices.front(),
                       {ErrorKind::Stopped, tr("STOP is held: release it before anything moves again")}, done);
     }
-    // One job per line and baud rate; `done` comes once, after the last, with the first failure there was.
-    struct Outcome {
-        int jobs = 0;
-        Result<void> result;
-        Done done;
-    };
-    auto outcome = std::make_shared<Outcome>();
+    auto outcome = std::make_shared<TorqueJob::Outcome>();
     outcome->done = std::move(done);
     std::map<std::pair<LineSession *, int>, std::vector<Device *>> groups;
     for (Device *device : devices) {
@@ -206,35 +246,50 @@ void Commands::setTorque(const std::vector<Device *> &devices, bool on, Done don
         outcome->done({});
     for (const auto &[where, members] : groups) {
         std::vector<TorqueEntry> entries;
-        std::vector<DeviceKey> keys;
+        TorqueJob job{on, {}, {}, outcome};
         for (const Device *device : members) {
-            entries.push_back({device->id(), placeOf(*device).torqueAddress});
-            keys.push_back(device->key());
+            const Field &torque = *device->table().find(Known::TorqueEnable);
+            const auto affected = affectedNow(*device, torque);
+            entries.push_back({device->id(), torque.address,
+                               m_journal ? spansOf(*device, among(affected)) : std::vector<Span>()});
+            job.keys.push_back(device->key());
+            job.notes.push_back(noteWrite(*device, torque, on ? 1 : 0, affected));
         }
-        const auto finished = [this, outcome, keys, on](const Result<std::vector<Result<void>>> &results) {
-            for (std::size_t i = 0; i < keys.size(); ++i) {
-                Device *device = m_session.device(keys[i]);
-                const Result<void> one = results ? (*results)[i] : tl::unexpected(results.error());
-                if (!one) {
-                    outcome->result = one;
-                    const int torque = device ? device->table().indexOf(Known::TorqueEnable) : -1;
-                    if (torque >= 0 && mayHaveArrived(one.error()))
-                        device->setUnconfirmed(torque, on ? 1 : 0, one.error().text);
-                    emit failed(device, one.error());
-                } else if (device) {
-                    device->takeReadBack(device->table().indexOf(Known::TorqueEnable), on ? 1 : 0);
-                }
-            }
-            if (--outcome->jobs == 0 && outcome->done)
-                outcome->done(outcome->result);
-        };
-        where.first->bus().run<std::vector<Result<void>>>(
+        where.first->bus().run<std::vector<WrittenField>>(
             Priority::Click, this,
             [entries, on, baud = where.second](JobContext &context) {
                 return dynascope::setTorque(context, baud, entries, on);
             },
-            finished);
+            [this, job](const Result<std::vector<WrittenField>> &results) { finishTorque(job, results); });
     }
+}
+
+void Commands::finishTorque(const TorqueJob &job, const Result<std::vector<WrittenField>> &results)
+{
+    const std::int64_t raw = job.on ? 1 : 0;
+    for (std::size_t i = 0; i < job.keys.size(); ++i) {
+        Device *device = m_session.device(job.keys[i]);
+        const auto one = results ? (*results)[i].after : tl::unexpected(results.error());
+        JournalNote note = job.notes[i];
+        if (!one) {
+            note.failed(one.error());
+            if (job.outcome->result)
+                job.outcome->result = tl::unexpected(one.error());
+            const int torque = device ? device->table().indexOf(Known::TorqueEnable) : -1;
+            if (torque >= 0 && mayHaveArrived(one.error()))
+                device->setUnconfirmed(torque, raw, one.error().text);
+            emit failed(device, one.error());
+            continue;
+        }
+        note.done((*results)[i].before, *one);
+        if (!device)
+            continue;
+        device->takeReadBack(device->table().indexOf(Known::TorqueEnable), raw);
+        for (std::size_t moved = 1; moved < one->size(); ++moved)
+            device->take((*one)[moved]);
+    }
+    if (--job.outcome->jobs == 0 && job.outcome->done)
+        job.outcome->done(job.outcome->result);
 }
 
 void Commands::setLed(Device &device, bool on, Done done)

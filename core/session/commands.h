@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/deviceplace.h"
+#include "core/session/journal/journalnote.h"
 #include "core/session/session.h"
 
 #include <map>
@@ -10,6 +11,7 @@ namespace dynascope {
 
 /// What a person can do to a device. Each checks first, queues one job, and brings Device up to date with what the servo
 /// said. The outcome comes through `done`, if given, and failed() on the GUI thread. Never turns torque on by itself.
+/// Every write is in the journal, where there is one.
 class Commands : public QObject
 {
     Q_OBJECT
@@ -17,7 +19,10 @@ class Commands : public QObject
 public:
     using Done = std::function<void(Result<void>)>;
 
-    explicit Commands(Session &session, QObject *parent = nullptr);
+    /// `session` and `journal` outlive this.
+    explicit Commands(Session &session, Journal *journal = nullptr, QObject *parent = nullptr);
+
+    Journal *journal() const { return m_journal; }
 
     /// Writes a raw value and reads the register back. While one write to a field is on its way the newest of those that
     /// follow waits and the others end Cancelled, so a slider may call this as often as it likes.
@@ -58,6 +63,12 @@ private:
     void sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done);
     void finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw, const Result<std::vector<PollValue>> &values,
                      const Done &done);
+    struct TorqueJob;
+    void finishTorque(const TorqueJob &job, const Result<std::vector<WrittenField>> &results);
+    JournalNote noteWrite(const Device &device, const Field &field, std::int64_t raw,
+                          const std::vector<const Field *> &affected = {}) const;
+    JournalNote noteMove(const Device &device, const Field &field, std::int64_t raw, bool turnTorqueOff) const;
+    JournalNote noteEvent(const Device &device, JournalKind kind, const QString &what = {}) const;
     void refuse(Device *device, const Error &error, const Done &done, int field = -1);
     Done reporting(Device &device, const QString &success, Done done);
     void runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done);
@@ -70,14 +81,12 @@ private:
     void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
 
     Session &m_session;
+    Journal *m_journal;
     bool m_stopped = false;
     std::map<FieldKey, std::optional<Waiting>> m_writes; ///< on their way, each with the newest that waits behind it
 };
 
-bool isGoal(const Field &field); ///< what the motor is to follow
-
-/// The stretches of the table to read so that every field is covered, gaps of a few bytes read through, none longer than
-/// `longest` bytes. Only fields that `wanted` accepts.
+/// Of the device's table.
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest = 128);
 
 } // namespace dynascope

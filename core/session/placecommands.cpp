@@ -57,8 +57,10 @@ void Commands::reboot(Device &device, Done done)
         return refuse(&device, {ErrorKind::Stopped, tr("STOP is held: release it before anything reboots")}, done);
     const DevicePlace place = placeOf(device);
     auto report = reporting(device, tr("%1 has rebooted; its RAM is back to defaults").arg(place.name), std::move(done));
-    auto sent = [this, key = device.key(), place, report](const Result<void> &result) {
+    auto sent = [this, key = device.key(), place, report,
+                 note = noteEvent(device, JournalKind::Reboot)](const Result<void> &result) mutable {
         // The status of Reboot may be missing or cut off by it.
+        result ? note.done() : note.failed(result.error());
         if (!result && !mayHaveArrived(result.error()))
             return report(result);
         if (Device *present = m_session.device(key))
@@ -196,9 +198,13 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                             std::move(done));
     device.line()->bus().run<void>(
         Priority::Click, this, [plan](JobContext &context) { return resetToFactory(context, plan); },
-        [this, key = device.key(), from = plan.place, to = plan.after, report](const Result<void> &result) {
-            if (!result)
+        [this, key = device.key(), from = plan.place, to = plan.after, report,
+         note = noteEvent(device, JournalKind::FactoryReset)](const Result<void> &result) mutable {
+            if (!result) {
+                note.failed(result.error());
                 return report(result);
+            }
+            note.moved({to.id, to.baudRate, to.modelNumber, 0, false, {}});
             if (Device *present = m_session.device(key))
                 present->setState(Device::State::Rebooting);
             awaitReturn(key, from, to, ReturnAttempts, report);
@@ -208,7 +214,11 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
 void Commands::clearMultiTurn(Device &device, Done done)
 {
     auto report = reporting(device, tr("%1: multi-turn position cleared").arg(device.displayName()), std::move(done));
-    runAt(device, [id = device.id()](Bus &bus) { return dynascope::clear(bus, id, ClearOption::Position); }, report);
+    runAt(device, [id = device.id()](Bus &bus) { return dynascope::clear(bus, id, ClearOption::Position); },
+          [report, note = noteEvent(device, JournalKind::Clear)](const Result<void> &result) mutable {
+              result ? note.done() : note.failed(result.error());
+              report(result);
+          });
 }
 
 void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done)
@@ -231,7 +241,9 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeId(context, plan); },
-        [this, key = device.key(), from = plan.place, newId = plan.newId, report](const Result<Found> &found) {
+        [this, key = device.key(), from = plan.place, newId = plan.newId, report,
+         note = noteMove(device, *field, newId, turnTorqueOff)](const Result<Found> &found) mutable {
+            found ? note.moved(*found) : note.failed(found.error());
             DevicePlace to = from;
             to.id = newId;
             finishChange(key, from, to, found, report);
@@ -255,7 +267,9 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     device.line()->bus().run<Found>(
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeBaud(context, plan); },
-        [this, key = device.key(), from = plan.place, newBaud, report](const Result<Found> &found) {
+        [this, key = device.key(), from = plan.place, newBaud, report,
+         note = noteMove(device, *field, *code, turnTorqueOff)](const Result<Found> &found) mutable {
+            found ? note.moved(*found) : note.failed(found.error());
             DevicePlace to = from;
             to.baudRate = newBaud;
             finishChange(key, from, to, found, report);

@@ -5,6 +5,14 @@ target_sources(dynascope_core PRIVATE
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
     session/history.cpp session/history.h
+    session/journal/journal.cpp session/journal/journal.h
+    session/journal/journalentry.cpp session/journal/journalentry.h
+    session/journal/journalfile.cpp session/journal/journalfile.h
+    session/journal/journalnote.cpp session/journal/journalnote.h
+    session/journal/journalwrites.cpp session/journal/journalwrites.h
+    session/journal/undo.cpp session/journal/undo.h
+    session/journal/undoplan.cpp session/journal/undoplan.h
+    session/journal/undosequence.cpp session/journal/undosequence.h
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
@@ -13,6 +21,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
+    session/procedures/revert.cpp session/procedures/revert.h
     session/reopener.cpp session/reopener.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h

@@ -94,7 +94,25 @@ void StopControl::press()
     m_waiting.clear();
     for (const auto &line : m_session.lines())
         stop(*line); // also one that is lost: it says of each device that it isn't confirmed
+    noteAll();
     update();
+}
+
+void StopControl::noteAll()
+{
+    m_notes.clear();
+    for (const Device *device : m_session.devices()) {
+        const Field *torque = device->table().find(Known::TorqueEnable);
+        if (!torque || !m_commands.journal() || (device->raw(Known::TorqueEnable) && !device->mayHaveTorqueOn()))
+            continue;
+        JournalEntry entry;
+        entry.by = JournalAuthor::Stop;
+        entry.device = journalDevice(*device);
+        entry.changes = {changeOf(*torque, 0)};
+        if (const auto old = device->raw(Known::TorqueEnable))
+            entry.changes.front().before = bytesFromRaw(*torque, *old);
+        m_notes[device->key()] = JournalNote(m_commands.journal(), std::move(entry));
+    }
 }
 
 void StopControl::release()
@@ -137,6 +155,14 @@ void StopControl::take(LineSession *line, const std::vector<StopOutcome> &outcom
     for (const StopOutcome &outcome : outcomes) {
         note(outcome);
         Device *device = m_session.device(outcome.device);
+        if (const auto noted = m_notes.extract(outcome.device)) {
+            JournalNote &journalled = noted.mapped();
+            JournalEntry end = journalled.entry();
+            end.state = outcome.off ? JournalState::Done : JournalState::Unconfirmed;
+            if (outcome.off)
+                end.changes.front().shown = end.changes.front().after;
+            journalled.finish(end);
+        }
         if (device && outcome.off)
             device->takeReadBack(device->table().indexOf(Known::TorqueEnable), 0);
     }

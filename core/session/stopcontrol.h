@@ -38,6 +38,7 @@ private:
     void note(const StopOutcome &outcome);
     QStringList uncovered() const; ///< devices of unknown models: nobody knows their Torque Enable
     void update();
+    void noteAll(); ///< in the journal: who may be under torque
 
     Session &m_session;
     Commands &m_commands;
@@ -46,6 +47,7 @@ private:
     std::map<LineSession *, int> m_generations; ///< of the bus threads whose outcomes are listened to
     std::set<LineSession *> m_waiting;          ///< have not reported yet
     std::map<DeviceKey, StopOutcome> m_outcomes;
+    std::map<DeviceKey, JournalNote> m_notes; ///< of those that have not reported yet
     QString m_report;
 };
 

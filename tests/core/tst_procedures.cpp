@@ -208,8 +208,10 @@ private slots:
     {
         VirtualBus wire(m_catalog, QStringLiteral("XM430-W350@57600:1"));
         DirectContext context(*wire.bus);
-        const WriteFieldPlan plan{place(1), {1, 116, {0x00, 0x04, 0, 0}}, {{1, 112, 4}}};
-        const auto values = writeField(context, plan);
+        const WriteFieldPlan plan{place(1), {1, 116, {0x00, 0x04, 0, 0}}, {{1, 112, 4}}, false};
+        const auto written = writeField(context, plan);
+        QVERIFY2(written, written ? "" : qPrintable(written.error().text));
+        const auto &values = written->after;
         QVERIFY2(values, values ? "" : qPrintable(values.error().text));
         QCOMPARE(values->size(), std::size_t(2));
         QCOMPARE(values->front().data, Bytes({0x00, 0x04, 0, 0}));

@@ -123,10 +123,10 @@ private:
 
 /// All of core on one line of virtual time. Nothing is polled.
 struct VirtualSession {
-    VirtualSession(const dynascope::Catalog &catalog, const QString &servos)
+    VirtualSession(const dynascope::Catalog &catalog, const QString &servos, dynascope::Journal *journal = nullptr)
         : factory(catalog, servos)
         , session(factory, catalog)
-        , commands(session)
+        , commands(session, journal)
         , stop(session, commands)
     {
     }

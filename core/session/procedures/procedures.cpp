@@ -48,11 +48,20 @@ Result<std::vector<PollValue>> readSpans(JobContext &context, const ReadSpansPla
     return values;
 }
 
-Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan)
+namespace {
+
+/// What can't be read is left out; an end of all is the error.
+Result<std::vector<PollValue>> readBefore(JobContext &context, const std::vector<Span> &spans)
 {
-    const AtBaud there(context.bus(), plan.place.baudRate);
-    if (!there.entered())
-        return tl::unexpected(there.entered().error());
+    std::vector<PollValue> values;
+    const auto all = appendSpans(context, spans, values);
+    if (!all && !mayHaveArrived(all.error()) && all.error().kind != ErrorKind::NotSent)
+        return tl::unexpected(all.error());
+    return values;
+}
+
+Result<std::vector<PollValue>> writeAndRead(JobContext &context, const WriteFieldPlan &plan)
+{
     const Asking asking(context.bus(), plan.leavesOnlyPing);
     auto written = writeVerified(context.bus(), plan.data);
     const bool isSilent = !written && written.error().kind == ErrorKind::NothingReceived;
@@ -72,18 +81,40 @@ Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldP
     return values;
 }
 
-Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
+} // namespace
+
+Result<WrittenField> writeField(JobContext &context, const WriteFieldPlan &plan)
+{
+    const AtBaud there(context.bus(), plan.place.baudRate);
+    if (!there.entered())
+        return tl::unexpected(there.entered().error());
+    auto before = readBefore(context, plan.before);
+    if (!before)
+        return tl::unexpected(before.error());
+    return WrittenField{std::move(*before), writeAndRead(context, plan)};
+}
+
+Result<std::vector<WrittenField>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
                                             bool on)
 {
     const AtBaud there(context.bus(), baudRate);
     if (!there.entered())
         return tl::unexpected(there.entered().error());
-    std::vector<Result<void>> outcomes;
+    std::vector<WrittenField> outcomes;
     for (const TorqueEntry &entry : entries) {
         if (const auto go = context.checkpoint(); !go)
             return tl::unexpected(go.error());
-        const auto written = writeVerified(context.bus(), {entry.id, entry.address, {std::uint8_t(on ? 1 : 0)}});
-        outcomes.push_back(written ? Result<void>() : tl::unexpected(written.error()));
+        WriteFieldPlan plan;
+        plan.data = {entry.id, entry.address, {std::uint8_t(on ? 1 : 0)}};
+        std::vector<PollValue> before;
+        if (on) {
+            plan.sideEffects = entry.affected;
+            auto read = readBefore(context, entry.affected);
+            if (!read)
+                return tl::unexpected(read.error());
+            before = std::move(*read);
+        }
+        outcomes.push_back({std::move(before), writeAndRead(context, plan)});
     }
     return outcomes;
 }

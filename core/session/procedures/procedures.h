@@ -31,8 +31,13 @@ struct WriteFieldPlan {
     SpanData data;
     std::vector<Span> sideEffects;
     bool leavesOnlyPing = false; ///< the value tells the device to answer nothing else: no Read will show it
+    std::vector<Span> before = {}; ///< read first; what can't be read keeps nothing from being written
 };
-Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
+struct WrittenField {
+    std::vector<PollValue> before;
+    Result<std::vector<PollValue>> after; ///< the register itself, then the side effects; the write's failure
+};
+Result<WrittenField> writeField(JobContext &context, const WriteFieldPlan &plan);
 
 /// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Writes once, then
 /// looks for the device at the new ID and, failing that, at the old one. STOP may come at any point: then the error is
@@ -63,12 +68,14 @@ struct FactoryResetPlan {
 };
 Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan);
 
-/// Turns torque on or off and reads it back, for devices of one baud rate. One entry per device.
+/// Turns torque on or off and reads it back, for devices of one baud rate. One entry per device. What torque on changes
+/// besides is read before and after; torque off waits for nothing.
 struct TorqueEntry {
     std::uint8_t id = 0;
     std::uint16_t address = 64;
+    std::vector<Span> affected = {};
 };
-Result<std::vector<Result<void>>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
+Result<std::vector<WrittenField>> setTorque(JobContext &context, int baudRate, const std::vector<TorqueEntry> &entries,
                                             bool on);
 
 /// Is it there? At its own baud rate, wherever the line works.

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/journal/undoplan.h"
+
+#include "core/session/deviceplace.h"
+#include "core/session/journal/journalwrites.h"
+#include "core/table/catalog.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+
+namespace dynascope {
+namespace {
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("Journal", text);
+}
+
+const JournalEntry *find(const JournalEntries &entries, qint64 number)
+{
+    const auto at = std::ranges::lower_bound(entries, number, {}, &JournalEntry::number);
+    return at == entries.end() || at->number != number ? nullptr : &*at;
+}
+
+/// Did it, or may it have, changed something that has an old value?
+bool isRevertible(const JournalEntry &entry)
+{
+    return entry.kind == JournalKind::Write && entry.state != JournalState::Failed && entry.undoes == 0
+           && entry.redoes == 0 && !entry.changes.empty() && !entry.changes.front().before.empty();
+}
+
+bool isPlain(const JournalEntry &entry)
+{
+    return entry.undoes == 0 && entry.redoes == 0 && entry.state != JournalState::Failed;
+}
+
+bool isOf(const JournalEntry &entry, const QString &run)
+{
+    return run.isEmpty() || entry.run == run;
+}
+
+bool isRegister(const RegisterChange &change, Known field)
+{
+    return change.name == nameOf(field);
+}
+
+/// Torque on is never carried out, so nothing that would be it is offered.
+bool wouldSwitchOn(const JournalEntry &entry, Direction direction)
+{
+    const RegisterChange &main = entry.changes.front();
+    const Bytes &to = direction == Direction::Undo ? main.before : main.after;
+    return isRegister(main, Known::TorqueEnable) && !to.empty() && to.front() != 0;
+}
+
+bool overlaps(const Field &field, const RegisterChange &change)
+{
+    return field.address < change.address + static_cast<int>(change.after.size()) && field.end() > change.address;
+}
+
+RevertRegister revertRegister(const RegisterChange &change, Direction direction, const ControlTable *table)
+{
+    RevertRegister one;
+    one.address = change.address;
+    one.name = registerText(change);
+    const Bytes &shown = change.shown.empty() ? change.after : change.shown;
+    one.from = direction == Direction::Undo ? shown : change.before;
+    one.to = direction == Direction::Undo ? change.before : change.after;
+    one.isTorque = isRegister(change, Known::TorqueEnable);
+    one.isGoal = !table; // nobody knows what it is
+    for (const Field &field : table ? table->fields() : std::span<const Field>()) {
+        if (!overlaps(field, change))
+            continue;
+        one.isGoal = one.isGoal || isGoal(field) || isIndirectData(field);
+        one.isLocked = one.isLocked || field.needsTorqueOff();
+        one.mayWait = one.mayWait && !isIndirectData(field);
+    }
+    const Field *only = table ? table->find(change.name) : nullptr;
+    if (only && isIndirectData(*only)) {
+        const Field *pointer =
+            table->find(QString(only->name).replace(QLatin1String("Data"), QLatin1String("Address")));
+        if (pointer && pointer->size == 2)
+            one.indirectAddress = pointer->address;
+    }
+    return one;
+}
+
+/// A span by its address may hold Torque Enable among others.
+bool hidesTorqueOn(const RevertRegister &one, const ControlTable *table)
+{
+    const Field *torque = table ? table->find(Known::TorqueEnable) : nullptr;
+    if (!torque || one.isTorque)
+        return false;
+    const int at = torque->address - one.address;
+    return at >= 0 && at < static_cast<int>(one.to.size()) && one.to[static_cast<std::size_t>(at)] != 0;
+}
+
+/// What a write of `main` may change and didn't then: putting it back may.
+void keepOthers(RevertPlan &plan, const RegisterChange &main, const ControlTable *table)
+{
+    const Field *field = table ? table->at(main.address) : nullptr;
+    if (!field || field->size != main.after.size())
+        return;
+    for (const Field *other : affectedBy(*table, *field, true)) {
+        const bool isPlanned = std::ranges::any_of(
+            plan.registers, [other](const RevertRegister &each) { return each.address == other->address; });
+        if (isPlanned || other == table->find(Known::TorqueEnable))
+            continue;
+        const RegisterChange change = changeOf(*other, Bytes(other->size));
+        plan.kept.push_back(revertRegister(change, Direction::Redo, table));
+        plan.kept.back().to = change.after;
+    }
+}
+
+JournalEntry entryOf(const JournalEntry &of, Direction direction, const JournalPlace &place)
+{
+    JournalEntry entry;
+    entry.by = JournalAuthor::Undo;
+    entry.device = of.device;
+    entry.device.id = place.id;
+    entry.device.baudRate = place.baudRate;
+    (direction == Direction::Undo ? entry.undoes : entry.redoes) = of.number;
+    for (const RegisterChange &change : of.changes) {
+        RegisterChange turned = change;
+        turned.shown.clear();
+        if (direction == Direction::Undo)
+            std::swap(turned.before, turned.after);
+        entry.changes.push_back(std::move(turned));
+    }
+    return entry;
+}
+
+Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const ControlTable *table,
+                          const UndoOptions &options)
+{
+    const RegisterChange &main = entry.changes.front();
+    const bool isId = isRegister(main, Known::Id);
+    const int wanted = step.direction == Direction::Undo ? main.before.front() : main.after.front();
+    const int held = step.direction == Direction::Undo ? main.after.front() : main.before.front();
+    const auto rate = [table](int code) { return table ? table->baudRate(code) : std::nullopt; };
+    const std::optional<int> heldRate = rate(held), wantedRate = rate(wanted);
+    if (isId ? step.place.id != held : step.place.baudRate != heldRate.value_or(0)) {
+        return failure(ErrorKind::InvalidArgument,
+                       tr("%1 has moved since entry %2, to ID %3 at %4 bps; nothing was written")
+                           .arg(step.place.name)
+                           .arg(entry.number)
+                           .arg(step.place.id)
+                           .arg(step.place.baudRate));
+    }
+    step.entry.changes.resize(1); // torque, which had to go off for it, stays off
+    if (isId) {
+        step.newId = {step.place, static_cast<std::uint8_t>(wanted), main.address, options.mayTurnTorqueOff};
+    } else if (wantedRate) {
+        step.newBaud = {step.place, *wantedRate, static_cast<std::uint8_t>(wanted), main.address,
+                        options.mayTurnTorqueOff};
+    } else {
+        return failure(ErrorKind::NotSupported, tr("It isn't known which baud rate %1 is").arg(wanted));
+    }
+    return step;
+}
+
+} // namespace
+
+std::set<qint64> undoneEntries(const JournalEntries &entries)
+{
+    std::set<qint64> undone;
+    for (const JournalEntry &entry : entries) {
+        if (entry.state != JournalState::Done)
+            continue;
+        if (entry.undoes > 0)
+            undone.insert(entry.undoes);
+        if (entry.redoes > 0)
+            undone.erase(entry.redoes);
+    }
+    return undone;
+}
+
+qint64 nextToUndo(const JournalEntries &entries, const QString &run)
+{
+    const std::set<qint64> undone = undoneEntries(entries);
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+        if (isOf(*entry, run) && isRevertible(*entry) && !undone.contains(entry->number)
+            && !wouldSwitchOn(*entry, Direction::Undo))
+            return entry->number;
+    }
+    return 0;
+}
+
+qint64 nextToRedo(const JournalEntries &entries, const QString &run)
+{
+    const std::set<qint64> undone = undoneEntries(entries);
+    for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+        if (!isOf(*entry, run))
+            continue;
+        if (isPlain(*entry) && !undone.contains(entry->number))
+            return 0; // something new since
+        if (entry->undoes > 0 && entry->state == JournalState::Done && undone.contains(entry->undoes)) {
+            const JournalEntry *taken = find(entries, entry->undoes);
+            if (taken && !wouldSwitchOn(*taken, Direction::Redo))
+                return taken->number;
+        }
+    }
+    return 0;
+}
+
+QString whyNot(const JournalEntries &entries, qint64 number, Direction direction)
+{
+    const JournalEntry *entry = find(entries, number);
+    if (!entry)
+        return tr("The journal has no entry %1").arg(number);
+    if (entry->undoes > 0)
+        return tr("Entry %1 is itself an undo: redo %2").arg(number).arg(entry->undoes);
+    if (entry->redoes > 0)
+        return tr("Entry %1 is a redo: undo %2").arg(number).arg(entry->redoes);
+    if (entry->kind != JournalKind::Write)
+        return tr("Entry %1 is no write of registers: what it changed isn't known").arg(number);
+    if (entry->state == JournalState::Failed)
+        return tr("Entry %1 failed and changed nothing").arg(number);
+    if (!isRevertible(*entry))
+        return tr("Entry %1 does not know what it replaced").arg(number);
+    const bool isUndone = undoneEntries(entries).contains(number);
+    if (isUndone && direction == Direction::Undo)
+        return tr("Entry %1 is undone already").arg(number);
+    if (!isUndone && direction == Direction::Redo)
+        return tr("Entry %1 is not undone").arg(number);
+    if (wouldSwitchOn(*entry, direction))
+        return tr("Entry %1 would switch torque on, which is only ever done by hand").arg(number);
+    return {};
+}
+
+bool isSameLine(const JournalDevice &one, const JournalDevice &other)
+{
+    if (!one.adapter.isEmpty() && !other.adapter.isEmpty())
+        return one.adapter == other.adapter;
+    return one.line == other.line;
+}
+
+JournalPlace placeNow(const JournalEntries &entries, const JournalEntry &entry)
+{
+    JournalPlace place = entry.movedTo.value_or(JournalPlace{entry.device.id, entry.device.baudRate});
+    for (const JournalEntry &later : entries) {
+        const JournalPlace from{later.device.id, later.device.baudRate};
+        if (later.number > entry.number && later.movedTo && later.state != JournalState::Failed && from == place
+            && later.device.modelNumber == entry.device.modelNumber && isSameLine(later.device, entry.device))
+            place = *later.movedTo;
+    }
+    return place;
+}
+
+Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Direction direction, const Catalog &catalog,
+                          const UndoOptions &options)
+{
+    if (const QString why = whyNot(entries, number, direction); !why.isEmpty())
+        return failure(ErrorKind::InvalidArgument, why);
+    const JournalEntry &entry = *find(entries, number);
+    const JournalPlace place = placeNow(entries, entry);
+    const ControlTablePtr table = catalog.find(entry.device.modelNumber, entry.device.firmware);
+    UndoStep step;
+    step.number = number;
+    step.direction = direction;
+    step.entry = entryOf(entry, direction, place);
+    step.place.id = static_cast<std::uint8_t>(place.id);
+    step.place.baudRate = place.baudRate;
+    step.place.modelNumber = static_cast<std::uint16_t>(entry.device.modelNumber);
+    step.place.name = deviceText(step.entry.device);
+    const Field *torque = table ? table->find(Known::TorqueEnable) : nullptr;
+    if (torque)
+        step.place.torqueAddress = torque->address;
+    const RegisterChange &main = entry.changes.front();
+    if (isRegister(main, Known::Id) || isRegister(main, Known::BaudRate))
+        return planMove(std::move(step), entry, table.get(), options);
+
+    RevertPlan &plan = step.registers;
+    plan.place = step.place;
+    plan.firmware = entry.device.firmware;
+    if (torque)
+        plan.torqueAddress = torque->address;
+    const Field *mode = table ? table->find(u"Drive Mode") : nullptr;
+    if (mode && std::ranges::find(mode->bits, TorqueOnByGoalBit, &BitField::first) != mode->bits.end())
+        plan.driveModeAddress = mode->address;
+    for (const RegisterChange &change : entry.changes) {
+        if (change.before.empty())
+            continue;
+        plan.registers.push_back(revertRegister(change, direction, table.get()));
+        if (hidesTorqueOn(plan.registers.back(), table.get()))
+            return failure(ErrorKind::InvalidArgument, tr("Entry %1 would switch torque on").arg(number));
+    }
+    keepOthers(plan, main, table.get());
+    plan.readsNothing = isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    plan.goals = table ? spansOf(*table, step.place.id, isGoal) : std::vector<Span>();
+    plan.mayMove = options.mayMove;
+    plan.mayTurnTorqueOff = options.mayTurnTorqueOff;
+    return step;
+}
+
+Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
+{
+    UndoResult result;
+    if (!step.newId && !step.newBaud) {
+        auto reverted = revert(context, step.registers);
+        if (!reverted)
+            return tl::unexpected(reverted.error());
+        result.registers = std::move(*reverted);
+        return result;
+    }
+    const auto there = look(context, step.place);
+    if (!there)
+        return tl::unexpected(there.error());
+    if (there->modelNumber != step.place.modelNumber || there->firmware != step.entry.device.firmware) {
+        return failure(ErrorKind::NotFound, tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
+                                                .arg(step.place.id)
+                                                .arg(step.place.baudRate)
+                                                .arg(step.place.name));
+    }
+    auto found = step.newId ? changeId(context, *step.newId) : changeBaud(context, *step.newBaud);
+    if (!found)
+        return tl::unexpected(found.error());
+    result.moved = *found;
+    return result;
+}
+
+JournalEntry outcomeOf(const UndoStep &step, const Result<UndoResult> &result)
+{
+    JournalEntry outcome = step.entry;
+    if (!result) {
+        outcome.state = stateAfter(result.error());
+        outcome.note = result.error().text;
+        return outcome;
+    }
+    outcome.state = JournalState::Done;
+    if (result->moved) {
+        outcome.movedTo = JournalPlace{result->moved->id, result->moved->baudRate};
+        outcome.changes.front().shown = outcome.changes.front().after;
+        return outcome;
+    }
+    for (RegisterChange &change : outcome.changes)
+        change.shown = bytesIn(result->registers.after, change.address, change.after.size());
+    QStringList notes;
+    if (result->registers.torqueTurnedOff)
+        notes << tr("torque was turned off for it");
+    if (result->registers.torqueStaysOff)
+        notes << tr("torque stays off");
+    for (const LeftRegister &left : result->registers.left) {
+        notes << left.why;
+        if (left.what.address == outcome.changes.front().address)
+            outcome.state = JournalState::Unconfirmed; // not undone
+    }
+    outcome.note = notes.join(QStringLiteral("; "));
+    return outcome;
+}
+
+} // namespace dynascope
