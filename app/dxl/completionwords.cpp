@@ -41,6 +41,8 @@ QStringList wordsBehind(const QString &command)
         return split(u"store restore");
     if (command == u"completion")
         return split(u"bash zsh fish");
+    if (command == u"models")
+        return split(u"list show check import");
     if (command == u"packet")
         return instructionNames();
     if (command != u"sim")
@@ -57,7 +59,7 @@ Words wordsOf(const CLI::App &app)
     words.name = QString::fromStdString(app.get_name());
     words.help = inShort(app.get_description());
     words.words = wordsBehind(words.name);
-    words.takesFiles = words.name == u"sim"; // ctl PATH
+    words.takesFiles = words.name == u"sim" || words.name == u"models"; // ctl PATH, check FILE
     for (const CLI::Option *option : app.get_options()) {
         for (const std::string &name : option->get_lnames()) {
             words.options << QStringLiteral("--") + QString::fromStdString(name);
@@ -72,14 +74,23 @@ Words wordsOf(const CLI::App &app)
     return words;
 }
 
+/// Names that a shell would take apart have to be typed in quotes, and are not completed.
+bool isOneWord(const QString &name)
+{
+    return std::ranges::all_of(name, [](QChar c) {
+        return c.unicode() < 128 && (c.isLetterOrNumber() || QStringView(u"_-.+").contains(c));
+    });
+}
+
 QStringList fieldNames(const Catalog &catalog)
 {
     std::set<QString> names;
     for (const Catalog::ModelInfo &model : catalog.models()) {
         const ControlTablePtr table = catalog.find(model.modelNumber, model.newestFirmware);
         for (const Field &field : table->fields()) {
-            if (!field.name.startsWith(QLatin1String("Indirect")))
-                names.insert(field.name.toLower().replace(u' ', u'_'));
+            const QString name = field.name.toLower().replace(u' ', u'_');
+            if (!name.startsWith(QLatin1String("indirect")) && isOneWord(name))
+                names.insert(name);
         }
     }
     return {names.begin(), names.end()};
@@ -105,8 +116,10 @@ ValuedOption valued(const QString &name, const Catalog &catalog, const QStringLi
     if (name != u"--model")
         return {name, {}};
     QStringList models;
-    for (const Catalog::ModelInfo &model : catalog.models())
-        models << model.model;
+    for (const Catalog::ModelInfo &model : catalog.models()) {
+        if (isOneWord(model.model))
+            models << model.model;
+    }
     return {name, models};
 }
 
