@@ -14,13 +14,16 @@ QString areaName(Area area)
     switch (area) {
     case Area::Eeprom: return QStringLiteral("EEPROM");
     case Area::Ram: return QStringLiteral("RAM");
-    case Area::Hybrid: break;
+    case Area::Hybrid: return QStringLiteral("HYBRID");
+    case Area::Unknown: break;
     }
-    return QStringLiteral("HYBRID");
+    return QStringLiteral("?");
 }
 
 QString accessName(const Field &field)
 {
+    if (field.mayBeTried())
+        return QStringLiteral("?");
     return field.isWritable() ? QStringLiteral("RW") : QStringLiteral("R");
 }
 

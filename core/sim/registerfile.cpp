@@ -61,7 +61,11 @@ std::int64_t RegisterFile::initialOf(const Field &field) const
         if (&field == this->field(gain.first))
             return std::min(gain.second, field.maximum.number.value_or(gain.second));
     }
-    return 0;
+    // A limit of which no factory value is stated limits nothing: at 0 no goal could be set.
+    const auto &all = m_table->fields();
+    const bool isLimit = std::any_of(all.begin(), all.end(),
+                                     [&field](const Field &other) { return other.maximum.reg == field.name; });
+    return isLimit ? field.maximum.number.value_or(0) : 0;
 }
 
 std::int64_t RegisterFile::get(const Field &field) const

@@ -125,8 +125,6 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
 {
     if (const Result<void> sound = TableFile::check(json, name); !sound)
         return sound;
-    if (m_files.count(stem(name)) > 0)
-        return bad(name, QStringLiteral("a file of this name has been read already"));
     const TableOutline outline = outlineOf(json);
     FilePtr base;
     if (!outline.extends.isEmpty()) {
@@ -145,16 +143,22 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
     if (file->fault().isSet())
         return refuse(file->fault());
 
-    Catalog next = *this;
-    next.m_files.emplace(stem(name), file);
+    // What is wrong in itself is said before what is there already.
+    std::vector<ModelPtr> models;
     for (const TableOutline::Model &model : outline.models) {
         ModelInfo info = infoOf(model, file->shared());
         info.file = stem(name);
-        const auto entry = std::make_shared<const Model>(std::move(info), file);
-        if (const TableFault fault = entry->tables.check(); fault.isSet())
+        models.push_back(std::make_shared<const Model>(std::move(info), file));
+        if (const TableFault fault = models.back()->tables.check(); fault.isSet())
             return refuse(fault, model.name);
-        if (const QString wrong = next.insert(entry, model.replaces); !wrong.isEmpty())
-            return refuse({wrong, {QStringLiteral("number")}}, model.name);
+    }
+    if (m_files.count(stem(name)) > 0)
+        return bad(name, QStringLiteral("sound in itself, but there is a file of this name already; give it another"));
+    Catalog next = *this;
+    next.m_files.emplace(stem(name), file);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (const QString wrong = next.insert(models[i], outline.models[i].replaces); !wrong.isEmpty())
+            return refuse({wrong, {QStringLiteral("number")}}, models[i]->info.model);
     }
     *this = std::move(next);
     return {};

@@ -9,7 +9,7 @@ target_sources(dynascope_core PRIVATE
     table/parsevalue.cpp
     table/memo.h
     table/rawtable.cpp table/rawtable.h
-    table/tablebuilder.cpp table/tablebuilder.h
+    table/tablebuilder.cpp table/tablebuilder.h table/tablebuilder_checks.cpp
     table/tablefault.h
     table/tablefile.cpp table/tablefile.h
     table/tableimport.cpp table/tableimport.h

@@ -245,19 +245,23 @@ std::int64_t TableBuilder::numberIn(const QJsonObject &json, const QString &key,
     return low;
 }
 
-void TableBuilder::say(const QStringList &path, const QString &what)
+void TableBuilder::say(const QStringList &path, const QString &what, const QStringList &elsewhere)
 {
     if (!m_fault.isSet())
-        m_fault = {m_model + QStringLiteral(": ") + what, path};
+        m_fault = {m_model + QStringLiteral(": ") + what, path, elsewhere};
 }
 
-void TableBuilder::sayOf(const Field &field, const QString &what)
+QStringList TableBuilder::pathOf(const Field &field) const
 {
     static const QString block = QStringLiteral("Indirect ");
     const bool generated = field.name.startsWith(block) && !m_context.registers.contains(field.name)
                            && !m_context.registers.contains(IndirectAddress);
-    say(generated ? QStringList{Indirect} : QStringList{Registers, field.name},
-        QStringLiteral("%1: %2").arg(field.name, what));
+    return generated ? QStringList{Indirect} : QStringList{Registers, field.name};
+}
+
+void TableBuilder::sayOf(const Field &field, const QString &what, const Field *other)
+{
+    say(pathOf(field), QStringLiteral("%1: %2").arg(field.name, what), other ? pathOf(*other) : QStringList());
 }
 
 // --- Registers ------------------------------------------------------------------------------------------------------
@@ -360,65 +364,6 @@ void TableBuilder::add(const QString &name, const QString &key, const QJsonObjec
     if (reader.wrong().isEmpty())
         return;
     say(key == Indirect ? QStringList{Indirect} : QStringList{Registers, key} + reader.wrongPath(), reader.wrong());
-}
-
-void TableBuilder::checkTogether(const std::vector<Field> &fields)
-{
-    if (fields.empty())
-        return say({}, QStringLiteral("no registers at firmware %1").arg(m_context.firmware));
-    for (std::size_t i = 1; i < fields.size(); ++i) {
-        if (fields[i].address < fields[i - 1].end()) {
-            return sayOf(fields[i],
-                         QStringLiteral("overlaps %1 at address %2").arg(fields[i - 1].name).arg(fields[i].address));
-        }
-    }
-    checkNames(fields);
-}
-
-void TableBuilder::checkNames(const std::vector<Field> &fields)
-{
-    QStringList names;
-    std::vector<std::pair<QString, QString>> plain;
-    for (const Field &field : fields) {
-        names.append(field.name);
-        plain.emplace_back(normalizedName(field.name), field.name);
-    }
-    std::sort(plain.begin(), plain.end());
-    for (std::size_t i = 1; i < plain.size(); ++i) {
-        if (plain[i].first == plain[i - 1].first)
-            return say({Registers, plain[i].second},
-                       QStringLiteral("%1 and %2 are one name").arg(plain[i - 1].second, plain[i].second));
-    }
-    for (const Field &field : fields) {
-        checkBound(field, field.minimum, names, {});
-        checkBound(field, field.maximum, names, {});
-        for (std::size_t i = 0; i < field.alternates.size(); ++i) {
-            const QStringList path{QStringLiteral("alternates"), QString::number(i)};
-            checkBound(field, field.alternates[i].minimum, names, path);
-            checkBound(field, field.alternates[i].maximum, names, path);
-        }
-        checkResets(field);
-    }
-}
-
-/// What is defined but not in this model is no mistake; what nobody knows is.
-void TableBuilder::checkResets(const Field &field)
-{
-    if (field.resets.isEmpty())
-        return;
-    const QJsonObject definitions = m_settings.value(u"definitions").toObject();
-    for (const QString &reset : field.resets) {
-        if (!m_context.registers.contains(reset) && !definitions.contains(reset))
-            say({Registers, field.name, QStringLiteral("resets")},
-                QStringLiteral("%1: resets %2, which is no register").arg(field.name, reset));
-    }
-}
-
-void TableBuilder::checkBound(const Field &field, const Bound &bound, const QStringList &names, const QStringList &path)
-{
-    if (!bound.reg.isEmpty() && (bound.reg == field.name || !names.contains(bound.reg)))
-        say(QStringList{Registers, field.name} + path + QStringList{QStringLiteral("range")},
-            QStringLiteral("%1: limited by %2, which is no other register").arg(field.name, bound.reg));
 }
 
 } // namespace dynascope

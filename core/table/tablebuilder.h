@@ -48,8 +48,9 @@ private:
     bool exists(const QJsonObject &json) const;
     std::int64_t numberIn(
         const QJsonObject &json, const QString &key, std::int64_t low, std::int64_t high, const QStringList &path);
-    void say(const QStringList &path, const QString &what);
-    void sayOf(const Field &field, const QString &what);
+    void say(const QStringList &path, const QString &what, const QStringList &elsewhere = {});
+    void sayOf(const Field &field, const QString &what, const Field *other = nullptr);
+    QStringList pathOf(const Field &field) const;
 
     QString m_model;
     QJsonObject m_settings;

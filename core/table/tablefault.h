@@ -10,6 +10,7 @@ namespace dynascope {
 struct TableFault {
     QString text; ///< begins with model and register; empty: nothing is wrong
     QStringList path;
+    QStringList elsewhere = {}; ///< the other of two that don't fit together: its place, where `path` isn't in the file
 
     bool isSet() const { return !text.isEmpty(); }
 };

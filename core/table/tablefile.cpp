@@ -36,17 +36,19 @@ QStringList unnumbered(QStringList path)
     return path;
 }
 
-int lineFor(const QByteArray &json, QStringList path, const QString &model)
+/// The line of this or of the nearest that it is in; 0 where it isn't in the file.
+int lineOf(const JsonPositions &positions, QStringList path)
 {
-    const JsonPositions positions(json);
-    if (model.isEmpty()) {
-        for (; !path.isEmpty(); path.removeLast()) {
-            if (const int line = positions.line(path))
-                return line;
-        }
-        return 0;
+    for (; !path.isEmpty(); path.removeLast()) {
+        if (const int line = positions.line(path))
+            return line;
     }
-    const QStringList variants = QJsonDocument::fromJson(json).object().value(u"variants").toObject().keys();
+    return 0;
+}
+
+/// The same of what holds for a model, wherever in its file that stands.
+int lineOf(const JsonPositions &positions, QStringList path, const QString &model, const QStringList &variants)
+{
     const qsizetype fewest = path.value(0) == Registers ? 2 : 1;
     for (; path.size() >= fewest; path.removeLast()) {
         for (const QStringList &one : {path, unnumbered(path)}) {
@@ -55,6 +57,19 @@ int lineFor(const QByteArray &json, QStringList path, const QString &model)
                     return line;
             }
         }
+    }
+    return 0;
+}
+
+int lineFor(const QByteArray &json, const TableFault &fault, const QString &model)
+{
+    const JsonPositions positions(json);
+    if (model.isEmpty())
+        return lineOf(positions, fault.path);
+    const QStringList variants = QJsonDocument::fromJson(json).object().value(u"variants").toObject().keys();
+    for (const QStringList &path : {fault.path, fault.elsewhere}) {
+        if (const int line = lineOf(positions, path, model, variants))
+            return line;
     }
     return positions.line({Models, model});
 }
@@ -123,7 +138,7 @@ Result<void> TableFile::check(const QByteArray &json, const QString &name)
 
 Error TableFile::error(const QString &name, const TableFault &fault, const QString &model) const
 {
-    const int line = lineFor(m_json, fault.path, model);
+    const int line = lineFor(m_json, fault, model);
     const QString place = line > 0 ? QStringLiteral("line %1: ").arg(line) : QString();
     return {ErrorKind::BadFile, QStringLiteral("%1: %2%3").arg(name, place, fault.text), 0};
 }

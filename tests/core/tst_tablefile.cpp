@@ -130,7 +130,7 @@ private slots:
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Limit\": null }",
             "T-1: Goal: limited by Limit, which is no other register", 23);
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Typo\": { \"initial\": 3 } }",
-            "T-1: Typo: \"size\" must be 1, 2 or 4");
+            "T-1: Typo: \"size\" is missing, and no register of this name is defined in what the file extends");
         // Registers
         row("\"address\": 0,", "\"adress\": 0,", "Model Number: unknown key \"adress\"");
         row("\"address\": 0,", "", "T-1: Model Number: \"address\" must be a number from 0 to 65534");
@@ -294,7 +294,8 @@ private slots:
         QCOMPARE(catalog.models().size(), std::size_t(1));
         QVERIFY(!catalog.find(9, 5));
         const Result<void> again = catalog.add(sound().toUtf8(), QStringLiteral("elsewhere/t.json"));
-        QCOMPARE(again.error().text, QStringLiteral("elsewhere/t.json: a file of this name has been read already"));
+        QCOMPARE(again.error().text, QStringLiteral("elsewhere/t.json: sound in itself, but there is a file of this name "
+                                                    "already; give it another"));
         QVERIFY(!catalog.add(QByteArray("{\"format\":1,\"extends\":\"u\"}"), QStringLiteral("v.json")));
         QVERIFY(catalog.add(QByteArray("{\"format\":1,\"extends\":\"t\"}"), QStringLiteral("v.json")));
     }

@@ -121,6 +121,88 @@ private slots:
         QCOMPARE(dxl({u"models"_s, u"check"_s, good}).out, u"%1: sound, 1 new models\n"_s.arg(good));
     }
 
+    void badFiles_data()
+    {
+        QTest::addColumn<QByteArray>("bytes");
+        QTest::addColumn<QString>("says"); // behind the file's name
+        const QByteArray model = "\n\"models\": { \"Own\": { \"number\": 9001 } } }";
+        QTest::newRow("empty") << QByteArray() << u"line 1: "_s;
+        QTest::newRow("no JSON") << QByteArray("address,size,name\n0,2,Model Number\n") << u"line 1: "_s;
+        QTest::newRow("binary") << QByteArray("\x7f" "ELF\0\0\0", 7) << u"line 1: "_s;
+        QTest::newRow("cut off") << QByteArray("{ \"format\": 2,\n\"extends\": \"x") << u"line 2: "_s;
+        QTest::newRow("huge") << QByteArray("{ \"format\": 2 }") + QByteArray(1 << 20, ' ')
+                              << u"larger than 1048576 bytes"_s;
+        QTest::newRow("deep") << QByteArray("{ \"format\": 2,\n\"registers\": ") + QByteArray(100'000, '[')
+                              << u"line 2: "_s;
+        QTest::newRow("key twice") << "{ \"format\": 2, \"extends\": \"x330\",\n\"registers\": {\n\"LED\": {},\n\"LED\": {} },"
+                                          + model
+                                   << u"line 4: "_s;
+        QTest::newRow("unknown key") << "{ \"format\": 2, \"extends\": \"x330\",\n\"color\": 1," + model << u"line 2: "_s;
+        QTest::newRow("of tomorrow") << QByteArray("{\n\"format\": 3 }") << u"line 2: "_s;
+        QTest::newRow("extends nothing") << "{ \"format\": 2,\n\"extends\": \"x999\"," + model
+                                         << u"line 2: extends \"x999\", which is not there"_s;
+        QTest::newRow("overlap") << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"LED\": { \"address\": 64 } },"
+                                        + model
+                                 << u"line 2: Own: Torque Enable: overlaps LED at address 64"_s;
+        QTest::newRow("range that its size can't hold")
+            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"LED\": { \"values\": null,\n\"range\": [0, 256] } },"
+                   + model
+            << u"line 3: Own: LED: "_s;
+        QTest::newRow("turned range")
+            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"Current Limit\": { \"range\": [9, 1] } }," + model
+            << u"line 2: Own: Current Limit: "_s;
+        QTest::newRow("limited by nobody")
+            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"Goal PWM\": { \"range\": [0, \"PWM Limits\"] } },"
+                   + model
+            << u"line 2: Own: Goal PWM: limited by PWM Limits, which is no other register"_s;
+        QTest::newRow("of a built-in model")
+            << QByteArray("{ \"format\": 2, \"extends\": \"x330\",\n\"models\": { \"Own\": {\n\"number\": 1020 } } }")
+            << u"line 3: Own: this name or the number 1020 is taken by XM430-W350"_s;
+    }
+
+    /// Whatever it is: refused with its place, in one sentence, soon.
+    void badFiles()
+    {
+        QFETCH(QByteArray, bytes);
+        QFETCH(QString, says);
+        const QString path = file(u"bad.txt"_s, bytes);
+        const Outcome outcome = dxl({u"models"_s, u"check"_s, path});
+        QCOMPARE(outcome.code, 1);
+        QVERIFY(outcome.out.isEmpty());
+        QVERIFY2(outcome.err.startsWith(u"dxl: %1: %2"_s.arg(path, says)), qPrintable(outcome.err.left(500)));
+        QCOMPARE(outcome.err.count(u'\n'), 1);
+        QVERIFY(outcome.err.size() < 500);
+        // The same file in the person's folder is said, and changes nothing.
+        QVERIFY(QFile::rename(path, m_folder.filePath(u"bad.json"_s)));
+        const Outcome listed = dxl({u"models"_s});
+        QCOMPARE(listed.code, 0);
+        QCOMPARE(listed.out.count(u'\n'), 109);
+        QVERIFY2(listed.err.contains(u"bad.json: %1"_s.arg(says)), qPrintable(listed.err.left(500)));
+    }
+
+    void badImports_data()
+    {
+        QTest::addColumn<QByteArray>("bytes");
+        QTest::addColumn<QString>("says");
+        QTest::newRow("empty") << QByteArray() << u""_s;
+        QTest::newRow("no table") << QByteArray("Hello\nworld\n") << u""_s;
+        QTest::newRow("huge") << QByteArray(2 << 20, '\n') << u"larger than 1048576 bytes"_s;
+        QTest::newRow("overlap") << QByteArray("address,size,name\n0,4,One\n2,2,Two\n") << u"line 3"_s;
+        QTest::newRow("size") << QByteArray("address,size,name\n0,3,One\n") << u"line 2"_s;
+    }
+
+    void badImports()
+    {
+        QFETCH(QByteArray, bytes);
+        QFETCH(QString, says);
+        const QString out = m_folder.filePath(u"out.json"_s);
+        const Outcome outcome = dxl({u"models"_s, u"import"_s, file(u"bad.csv"_s, bytes), u"--number"_s, u"9001"_s,
+                                     u"--out"_s, out});
+        QCOMPARE(outcome.code, 1);
+        QVERIFY(outcome.out.isEmpty() && !QFile::exists(out));
+        QVERIFY2(outcome.err.contains(u"bad.csv"_s) && outcome.err.contains(says), qPrintable(outcome.err));
+    }
+
     /// A file imported into the folder is a model at the next start.
     void importsAndUses()
     {

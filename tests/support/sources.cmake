@@ -6,6 +6,7 @@ target_sources(dynascope_test_support PRIVATE
     support/hostileline.cpp support/hostileline.h
     support/faultmatrix.cpp support/faultmatrix.h support/faultrequests.cpp
     support/hex.cpp support/hex.h
+    support/modelwalk.cpp support/modelwalk.h
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
     support/tablefacts.cpp support/tablefacts.h
