@@ -9,6 +9,7 @@ target_sources(dynascope_test_support PRIVATE
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
     support/otherseries.h
+    support/sanitized.h
     support/servobench.h
     support/sessionfixture.h
     support/simclient.h
