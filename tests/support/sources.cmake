@@ -9,6 +9,7 @@ target_sources(dynascope_test_support PRIVATE
     support/modelwalk.cpp support/modelwalk.h
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
+    support/sanitized.h
     support/tablefacts.cpp support/tablefacts.h
     support/servobench.h
     support/sessionfixture.h
