@@ -16,6 +16,7 @@
 #include "ui/devices/devicepanel.h"
 #include "ui/devices/nicknames.h"
 #include "ui/health/healthpanel.h"
+#include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
@@ -154,6 +155,8 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::resumeDemoRequested, this, &MainWindow::resumeDemoRequested);
     connect(m_menus, &Menus::stopRequested, &m_workbench.stop, &StopControl::press);
     connect(m_health, &HealthPanel::closeRequested, m_layout, [this] { m_layout->setHealthShown(false); });
+    connect(m_menus, &Menus::libraryRequested, this, &MainWindow::openLibrary);
+    connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
         saveColorScheme(scheme);
@@ -177,9 +180,24 @@ void MainWindow::connectDevices()
     connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 
-void MainWindow::warn(const QString &text)
+void MainWindow::setRefusedTables(const std::vector<RefusedTable> &refused)
 {
-    m_messages->post(MessageKind::Warning, text);
+    m_refused = refused;
+    for (const RefusedTable &one : refused)
+        m_messages->post(MessageKind::Warning, one.text);
+}
+
+/// At the selected device's model, where there is one.
+void MainWindow::openLibrary()
+{
+    const QString name = QStringLiteral("libraryDialog");
+    if (raiseOpen(*this, name))
+        return;
+    auto *dialog = new LibraryDialog(m_workbench.session.catalog(), m_refused, this);
+    const std::vector<Device *> devices = m_devices->selectedDevices();
+    if (!devices.empty())
+        dialog->showModel(devices.front()->modelNumber(), devices.front()->firmware());
+    present(*dialog);
 }
 
 void MainWindow::connectPlots()

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/session.h"
+#include "core/table/usertables.h"
 #include "ui/common/theme.h"
 #include "ui/common/workbench.h"
 
@@ -42,7 +43,8 @@ public:
     /// without either the welcome stays. `baudRate` 0: the one from last time.
     void connectTo(const QString &port, int baudRate);
 
-    void warn(const QString &text); ///< in the message bar
+    /// Table files that weren't read: said now, and listed where tables are looked up.
+    void setRefusedTables(const std::vector<RefusedTable> &refused);
 
     void setScheme(ColorScheme scheme); ///< which one the menu ticks; applied by who asked for it
 
@@ -60,12 +62,14 @@ private:
     void connectPlots();
     void onSelection();
     void onLines();
+    void openLibrary();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
     void focusPane(int pane);
     void restoreParts();
     void saveParts() const;
 
     Workbench m_workbench;
+    std::vector<RefusedTable> m_refused;
     Connector *m_connector;
     ConnectionBar *m_bar;
     MessageBar *m_stopBar;

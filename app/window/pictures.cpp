@@ -3,12 +3,14 @@
 
 #include "app/window/workshop.h"
 #include "ui/devices/devicepanel.h"
+#include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
 
 #include <QAction>
 #include <QApplication>
 #include <QDir>
 #include <QElapsedTimer>
+#include <QPointer>
 #include <QSettings>
 #include <QTimer>
 
@@ -90,7 +92,7 @@ private:
         const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const char *name) {
             m_steps.push_back({[this, scheme, size] {
                 m_workshop.applyScheme(scheme);
-                m_workshop.window().resize(size);
+                shown().resize(size);
             }});
             m_steps.push_back({[this, file = directory.filePath(QString::fromLatin1(name) + scale
                                                                 + QStringLiteral(".png"))] { save(file); }});
@@ -105,6 +107,10 @@ private:
         shot(ColorScheme::Light, large, "health-light");
         shot(ColorScheme::Dark, large, "health-dark");
         shot(ColorScheme::Dark, small, "health-small-dark");
+        m_steps.push_back({[this] { openLibrary(); }});
+        const QSize dialog(1160, 760);
+        shot(ColorScheme::Light, dialog, "library-light");
+        shot(ColorScheme::Dark, dialog, "library-dark");
     }
 
     /// Bus health with something to see in it: one cable that is bad, one that is poor.
@@ -131,9 +137,27 @@ private:
             action->setChecked(true);
     }
 
+    /// The registers of a model, one of them looked at.
+    void openLibrary()
+    {
+        if (auto *action = m_workshop.window().findChild<QAction *>(QStringLiteral("libraryAction")))
+            action->trigger();
+        m_library = m_workshop.window().findChild<LibraryDialog *>();
+        if (!m_library)
+            return;
+        m_library->showModel(1020, -1); // XM430-W350
+        m_library->showRegister(QStringLiteral("Goal Current"));
+    }
+
+    /// What the pictures are of.
+    QWidget &shown() const
+    {
+        return m_library ? static_cast<QWidget &>(*m_library) : static_cast<QWidget &>(m_workshop.window());
+    }
+
     void save(const QString &file)
     {
-        if (m_workshop.window().grab().save(file, "PNG"))
+        if (shown().grab().save(file, "PNG"))
             std::printf("%s\n", qPrintable(file));
         else {
             std::fprintf(stderr, "dynascope: %s could not be written\n", qPrintable(file));
@@ -157,6 +181,7 @@ private:
     QTimer m_timer;
     QElapsedTimer m_elapsed;
     std::deque<Step> m_steps;
+    QPointer<LibraryDialog> m_library;
     bool m_failed = false;
 };
 

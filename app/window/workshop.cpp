@@ -57,8 +57,7 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     m_window = std::make_unique<MainWindow>(
         Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines});
     m_window->setScheme(storedScheme());
-    for (const Error &refused : m_tables.refused)
-        m_window->warn(refused.text);
+    m_window->setRefusedTables(m_tables.refused);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
                      [this](ColorScheme scheme) { applyScheme(scheme); });
     QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {

@@ -75,7 +75,7 @@ void FieldReader::readPlace(const QJsonObject &json)
     const std::optional<std::int64_t> size = wholeNumber(json.value(u"size"));
     m_reading = QStringLiteral("size");
     if (!json.contains(u"size"))
-        return say(QStringLiteral("\"size\" is missing, and no register of this name is defined in what the file extends"));
+        return say(QStringLiteral("\"size\" is missing, and what the file extends defines no register of this name"));
     if (size != 1 && size != 2 && size != 4)
         return say(QStringLiteral("\"size\" must be 1, 2 or 4"));
     m_reading = QStringLiteral("address");

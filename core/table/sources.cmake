@@ -3,12 +3,14 @@ target_sources(dynascope_core PRIVATE
     table/cellrows.cpp table/cellrows.h
     table/controltable.cpp table/controltable.h
     table/field.h
+    table/fieldchanges.cpp table/fieldchanges.h
     table/fieldreader.cpp table/fieldreader.h table/fieldreader_values.cpp
     table/jsonguard.cpp table/jsonguard.h
     table/jsonscanner.cpp table/jsonscanner.h
     table/parsevalue.cpp
     table/memo.h
     table/rawtable.cpp table/rawtable.h
+    table/registerindex.cpp table/registerindex.h
     table/tablebuilder.cpp table/tablebuilder.h table/tablebuilder_checks.cpp
     table/tablefault.h
     table/tablefile.cpp table/tablefile.h

@@ -57,8 +57,9 @@ UserTables addUserTables(Catalog &catalog, const QString &folder)
     QStringList names = QDir(folder).entryList({QStringLiteral("*.json")}, QDir::Files | QDir::Readable, QDir::Name);
     if (names.size() > MostFiles) {
         result.refused.push_back(
-            {ErrorKind::BadFile,
-             QStringLiteral("%1: more than %2 files; only the first are read").arg(folder).arg(MostFiles), 0});
+            {{ErrorKind::BadFile,
+              QStringLiteral("%1: more than %2 files; only the first are read").arg(folder).arg(MostFiles), 0},
+             names.at(MostFiles)});
         names = names.first(MostFiles);
     }
     std::vector<Waiting> waiting;
@@ -67,7 +68,7 @@ UserTables addUserTables(Catalog &catalog, const QString &folder)
         if (json)
             waiting.push_back({name, *json, outlineOf(*json).extends});
         else
-            result.refused.push_back(json.error());
+            result.refused.push_back({json.error(), name});
     }
     while (!waiting.empty()) {
         // Next is one that extends none of those still to come; in a circle, any: adding it says what is missing.
@@ -82,7 +83,7 @@ UserTables addUserTables(Catalog &catalog, const QString &folder)
         if (added)
             result.added.append(next->name);
         else
-            result.refused.push_back(added.error());
+            result.refused.push_back({added.error(), next->name});
         waiting.erase(next);
     }
     return result;

@@ -11,10 +11,15 @@ namespace dynascope {
 /// data files of this user. It need not exist.
 QString userTablesFolder();
 
+/// A file that was not taken, and why: path and line are in the text.
+struct RefusedTable : Error {
+    QString file; ///< without folder
+};
+
 /// What came of a folder of tables.
 struct UserTables {
-    QStringList added;          ///< names of files
-    std::vector<Error> refused; ///< file and line are in the texts; their models are as if the files weren't there
+    QStringList added;                 ///< names of files
+    std::vector<RefusedTable> refused; ///< their models are as if the files weren't there
 };
 
 /// Adds every ".json" of `folder`, each after what it extends. One bad file doesn't keep the others out.

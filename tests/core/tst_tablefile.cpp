@@ -130,7 +130,7 @@ private slots:
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Limit\": null }",
             "T-1: Goal: limited by Limit, which is no other register", 23);
         row("\"number\": 7", "\"number\": 7, \"registers\": { \"Typo\": { \"initial\": 3 } }",
-            "T-1: Typo: \"size\" is missing, and no register of this name is defined in what the file extends");
+            "T-1: Typo: \"size\" is missing, and what the file extends defines no register of this name");
         // Registers
         row("\"address\": 0,", "\"adress\": 0,", "Model Number: unknown key \"adress\"");
         row("\"address\": 0,", "", "T-1: Model Number: \"address\" must be a number from 0 to 65534");

@@ -134,26 +134,22 @@ private slots:
                               << u"larger than 1048576 bytes"_s;
         QTest::newRow("deep") << QByteArray("{ \"format\": 2,\n\"registers\": ") + QByteArray(100'000, '[')
                               << u"line 2: "_s;
-        QTest::newRow("key twice") << "{ \"format\": 2, \"extends\": \"x330\",\n\"registers\": {\n\"LED\": {},\n\"LED\": {} },"
-                                          + model
-                                   << u"line 4: "_s;
-        QTest::newRow("unknown key") << "{ \"format\": 2, \"extends\": \"x330\",\n\"color\": 1," + model << u"line 2: "_s;
+        const auto registers = [&model](const QByteArray &text) {
+            return "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n" + text + " }," + model;
+        };
+        QTest::newRow("key twice") << registers("\"LED\": {},\n\"LED\": {}") << u"line 3: "_s;
+        QTest::newRow("unknown key") << "{ \"format\": 2,\n\"color\": 1," + model << u"line 2: "_s;
         QTest::newRow("of tomorrow") << QByteArray("{\n\"format\": 3 }") << u"line 2: "_s;
         QTest::newRow("extends nothing") << "{ \"format\": 2,\n\"extends\": \"x999\"," + model
                                          << u"line 2: extends \"x999\", which is not there"_s;
-        QTest::newRow("overlap") << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"LED\": { \"address\": 64 } },"
-                                        + model
+        QTest::newRow("overlap") << registers("\"LED\": { \"address\": 64 }")
                                  << u"line 2: Own: Torque Enable: overlaps LED at address 64"_s;
         QTest::newRow("range that its size can't hold")
-            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"LED\": { \"values\": null,\n\"range\": [0, 256] } },"
-                   + model
-            << u"line 3: Own: LED: "_s;
-        QTest::newRow("turned range")
-            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"Current Limit\": { \"range\": [9, 1] } }," + model
-            << u"line 2: Own: Current Limit: "_s;
+            << registers("\"LED\": { \"values\": null,\n\"range\": [0, 256] }") << u"line 3: Own: LED: "_s;
+        QTest::newRow("turned range") << registers("\"Current Limit\": { \"range\": [9, 1] }")
+                                      << u"line 2: Own: Current Limit: "_s;
         QTest::newRow("limited by nobody")
-            << "{ \"format\": 2, \"extends\": \"x330\", \"registers\": {\n\"Goal PWM\": { \"range\": [0, \"PWM Limits\"] } },"
-                   + model
+            << registers("\"Goal PWM\": { \"range\": [0, \"PWM Limits\"] }")
             << u"line 2: Own: Goal PWM: limited by PWM Limits, which is no other register"_s;
         QTest::newRow("of a built-in model")
             << QByteArray("{ \"format\": 2, \"extends\": \"x330\",\n\"models\": { \"Own\": {\n\"number\": 1020 } } }")

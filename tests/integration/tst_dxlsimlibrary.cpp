@@ -18,7 +18,8 @@ namespace {
 constexpr int BaudRate = 1'000'000;    ///< the fastest that all of them know
 constexpr std::size_t ModelsABus = 19; ///< a process each: four
 constexpr int MostRepeats = 20;
-constexpr std::chrono::milliseconds Patience{400}; ///< a loaded machine may take its time: nobody is called silent for that
+constexpr std::chrono::milliseconds Patience{
+    400}; ///< a loaded machine may take its time: nobody is called silent for that
 
 /// A model on the bus, at its (first) ID.
 struct Placed {

@@ -75,8 +75,7 @@ Result<Bytes> readWhole(Bus &bus, std::uint8_t id, const ControlTable &table)
     Bytes image(static_cast<std::size_t>(table.size()));
     for (const auto &span : spansOf(table)) {
         const int address = span.first, length = span.second;
-        const auto reply
-            = read(bus, {id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
+        const auto reply = read(bus, {id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)});
         if (!reply)
             return tl::unexpected(reply.error());
         if (reply->data.size() != static_cast<std::size_t>(length)) {
@@ -97,8 +96,8 @@ std::vector<const Field *> oneOfEachKind(const ControlTable &table)
     std::set<std::tuple<Area, int, bool, bool, bool>> kinds;
     std::vector<const Field *> fields;
     for (const Field &field : table.fields()) {
-        const auto kind
-            = std::tuple(field.area, int(field.size), field.isSigned, field.values.empty(), field.bits.empty());
+        const auto kind =
+            std::tuple(field.area, int(field.size), field.isSigned, field.values.empty(), field.bits.empty());
         if (field.isWritable() && !isSpecial(field) && kinds.insert(kind).second)
             fields.push_back(&field);
     }

@@ -17,7 +17,6 @@ Result<Bytes> readWhole(Bus &bus, std::uint8_t id, const ControlTable &table);
 std::vector<const Field *> oneOfEachKind(const ControlTable &table);
 
 /// Another value than it has in `image`, as its range allows it there; `image` then has it.
-Result<void> writeAndReadBack(
-    Bus &bus, std::uint8_t id, const ControlTable &table, const Field &field, Bytes &image);
+Result<void> writeAndReadBack(Bus &bus, std::uint8_t id, const ControlTable &table, const Field &field, Bytes &image);
 
 } // namespace dynascope::test

@@ -122,7 +122,7 @@ private slots:
     {
         QTest::addColumn<QByteArray>("action");
         for (const char *name : {"renameAction", "changeIdAction", "changeBaudAction", "factoryResetAction",
-                 "scanOptionsAction", "shortcutsAction", "aboutAction"})
+                 "scanOptionsAction", "libraryAction", "shortcutsAction", "aboutAction"})
             QTest::newRow(name) << QByteArray(name);
     }
     void dialogs()

@@ -1,5 +1,6 @@
 target_sources(dynascope_ui PRIVATE
     common/elidedlabel.cpp common/elidedlabel.h
+    common/fieldtexts.cpp common/fieldtexts.h
     common/filedialogs.cpp common/filedialogs.h
     common/flatcontrols.cpp common/flatcontrols.h
     common/flatstyle.cpp common/flatstyle.h

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldwordsmodel.h"
 
+#include "ui/common/fieldtexts.h"
 #include "ui/common/texts.h"
 
 namespace dynascope {
@@ -27,13 +28,6 @@ QString rangeText(const EffectiveField &effective)
         return bound ? QString::number(*bound).replace(u'-', QChar(0x2212)) : QString();
     };
     return QStringLiteral("%1 … %2").arg(text(effective.minimum), text(effective.maximum));
-}
-
-QString accessText(const Field &field)
-{
-    if (field.mayBeTried())
-        return FieldWordsModel::tr("access not known");
-    return field.isWritable() ? FieldWordsModel::tr("read and write") : FieldWordsModel::tr("read only");
 }
 
 QVariant FieldWordsModel::data(const QModelIndex &index, int role) const

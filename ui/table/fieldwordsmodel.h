@@ -39,6 +39,5 @@ private:
 
 /// "0 … 4095"; empty where anything goes that fits.
 QString rangeText(const EffectiveField &effective);
-QString accessText(const Field &field); ///< "read only", "read and write"
 
 } // namespace dynascope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/helppanel.h"
 
+#include "ui/common/fieldtexts.h"
 #include "ui/common/icons.h"
 #include "ui/common/theme.h"
 #include "ui/table/fieldwordsmodel.h"
@@ -16,60 +17,6 @@ namespace {
 
 constexpr int TextHeight = 64;
 constexpr int TightHeight = 34;
-
-QString areaText(Area area)
-{
-    switch (area) {
-    case Area::Eeprom: return HelpPanel::tr("EEPROM");
-    case Area::Hybrid: return HelpPanel::tr("Hybrid");
-    case Area::Unknown: return HelpPanel::tr("area not known");
-    case Area::Ram: break;
-    }
-    return HelpPanel::tr("RAM");
-}
-
-QString factsText(const Field &field)
-{
-    const QString size = field.size == 1 ? HelpPanel::tr("1 byte") : HelpPanel::tr("%1 bytes").arg(field.size);
-    return HelpPanel::tr("address %1 · %2 · %3 · %4")
-        .arg(QString::number(field.address), size, areaText(field.area), accessText(field));
-}
-
-QString meaningsText(const Field &field)
-{
-    QStringList parts;
-    for (const EnumValue &value : field.values)
-        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
-    for (const BitField &bits : field.bits) {
-        QString name = bits.count == 1 ? HelpPanel::tr("bit %1").arg(bits.first)
-                                       : HelpPanel::tr("bits %1–%2").arg(bits.first).arg(bits.first + bits.count - 1);
-        QString text = bits.name.toHtmlEscaped();
-        QStringList values;
-        for (const EnumValue &value : bits.values)
-            values << QStringLiteral("%1 = %2").arg(value.value).arg(value.text.toHtmlEscaped());
-        if (!values.isEmpty())
-            text += QStringLiteral(": ") + values.join(QStringLiteral(", "));
-        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(name, text);
-    }
-    return parts.join(QStringLiteral(" &nbsp;·&nbsp; "));
-}
-
-/// "0 … 4095 (0.00 ° … 359.91 °)"
-QString withUnits(const Field &field, const EffectiveField &effective, int resolution, AngleUnit angle,
-                  const std::optional<std::int64_t> &from, const std::optional<std::int64_t> &to)
-{
-    if (!from || !to)
-        return {};
-    const bool single = *from == *to;
-    const auto raw = [](std::int64_t value) { return QString::number(value).replace(u'-', QChar(0x2212)); };
-    QString text = single ? raw(*from) : raw(*from) + QStringLiteral(" … ") + raw(*to);
-    if (effective.unit != Unit::None || (single && !meaning(field, *from).isEmpty())) {
-        const QString low = valueText(field, effective, resolution, *from, angle);
-        const QString high = valueText(field, effective, resolution, *to, angle);
-        text += single ? QStringLiteral(" (%1)").arg(low) : QStringLiteral(" (%1 … %2)").arg(low, high);
-    }
-    return text;
-}
 
 } // namespace
 

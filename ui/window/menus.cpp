@@ -116,6 +116,10 @@ void Menus::makeViewMenu(LayoutManager &layout)
     tick();
     menu->addSeparator();
     addHealth(menu, layout);
+    QAction *library = add(menu, QStringLiteral("libraryAction"), tr("&Look up control tables…"),
+                           QStringLiteral("Ctrl+Shift+L"), QStringLiteral("search"));
+    library->setToolTip(tr("The registers of any model, without the device; search over all models"));
+    connect(library, &QAction::triggered, this, &Menus::libraryRequested);
     QAction *reset = add(menu, QStringLiteral("resetLayoutAction"), tr("R&eset the layout"), {});
     connect(reset, &QAction::triggered, &layout, &LayoutManager::reset);
     menu->addSeparator();

@@ -40,6 +40,7 @@ signals:
     void scanOptionsRequested();
     void schemeRequested(dynascope::ColorScheme scheme);
     void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
+    void libraryRequested();
     void resumeDemoRequested();
     void stopRequested();
 

@@ -59,6 +59,11 @@ WelcomePage::WelcomePage(PortList &ports, QWidget *parent)
     m_simulate->setToolTip(tr("A small arm of six servos and a fresh one, without any hardware"));
     connect(m_simulate, &QPushButton::clicked, this, [this] { emit connectRequested(QStringLiteral("sim")); });
 
+    QPushButton *library =
+        makeButton(QStringLiteral("welcomeLibrary"), QStringLiteral("search"), tr("Look up control tables"));
+    library->setToolTip(tr("The registers of any model, without the device (Ctrl+Shift+L)"));
+    connect(library, &QPushButton::clicked, this, &WelcomePage::libraryRequested);
+
     setFocusProxy(m_connect);
 
     auto *column = new QVBoxLayout;
@@ -72,6 +77,7 @@ WelcomePage::WelcomePage(PortList &ports, QWidget *parent)
     column->addLayout(m_portButtons);
     column->addWidget(m_connect);
     column->addWidget(m_simulate);
+    column->addWidget(library);
     column->addSpacing(8);
     column->addWidget(m_hint);
     column->addStretch(3);

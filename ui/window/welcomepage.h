@@ -23,6 +23,7 @@ public:
 signals:
     void choosePortRequested();
     void connectRequested(const QString &port);
+    void libraryRequested();
 
 protected:
     void showEvent(QShowEvent *event) override;
