@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/journaloptions.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -24,6 +25,7 @@ enum class Command {
     Clear,
     Completion,
     Info,
+    Journal,
     Led,
     Packet,
     Ping,
@@ -80,6 +82,7 @@ struct Options {
     // completion
     QString shell;
     SimOptions sim;
+    JournalOptions journal;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

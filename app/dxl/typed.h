@@ -28,6 +28,7 @@ struct Typed {
     bool raw = false;
     std::vector<std::string> registers, words;
     SimArguments sim;
+    JournalArguments journal;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual
