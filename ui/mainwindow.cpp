@@ -16,6 +16,7 @@
 #include "ui/devices/devicepanel.h"
 #include "ui/devices/nicknames.h"
 #include "ui/health/healthpanel.h"
+#include "ui/journal/undoactions.h"
 #include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
 #include "ui/table/tablepanel.h"
@@ -72,7 +73,14 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     setMinimumSize(900, 600);
     build();
     m_layout = new LayoutManager(*this, {*m_whole, *m_outer, *m_inner});
-    m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions()}, *m_layout);
+    std::vector<QAction *> editActions;
+    if (m_workbench.undo) {
+        auto *undo = new UndoActions(workbench, this);
+        editActions = undo->actions();
+        connect(undo, &UndoActions::failed, m_messages,
+                [this](const QString &what) { m_messages->post(MessageKind::Error, what); });
+    }
+    m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions(), editActions}, *m_layout);
     new Nicknames(workbench, this);
 
     auto *key = new StopKey(this);

@@ -41,6 +41,7 @@ ExitCode writeCommand(const Work &work);
 /// @}
 
 ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output);
+ExitCode journalCommand(const Catalog &catalog, Options options, Output &output);
 ExitCode portsCommand(Output &output);
 ExitCode versionCommand(Output &output);
 /// Serves the bus until the program is interrupted.

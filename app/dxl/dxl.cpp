@@ -33,6 +33,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Watch: return watchCommand(work);
     case Command::Write: return writeCommand(work);
     case Command::Completion:
+    case Command::Journal:
     case Command::Models:
     case Command::Ports:
     case Command::Sim:
@@ -73,7 +74,7 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
         return output.fail(connection.error());
     Journal journal(isJournalled(options) ? Journal::usualFolder() : QString(), Journal::Reading::Newest);
     QObject::connect(&journal, &Journal::failed,
-                     [&output](const QString &why) { output.note(why + QStringLiteral("; what is written is not noted")); });
+                     [&output](const QString &why) { output.note(why + QStringLiteral("; nothing is noted")); });
     return performOnLine({options, catalog, (*connection)->bus(), output, journal});
 }
 
@@ -86,6 +87,7 @@ ExitCode perform(const Options &options, Output &output)
         output.note(refused.text);
     switch (options.command) {
     case Command::Completion: return completionCommand(*catalog, options, output);
+    case Command::Journal: return journalCommand(*catalog, options, output);
     case Command::Models: return modelsCommand(*catalog, options.models, output);
     case Command::Ports: return portsCommand(output);
     case Command::Sim: return simCommand(*catalog, options, output);

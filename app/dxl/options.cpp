@@ -140,6 +140,12 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
             return tl::unexpected(sim.error());
         options.sim = std::move(*sim);
     }
+    if (options.command == Command::Journal) {
+        auto journal = typed.journal.understand();
+        if (!journal)
+            return tl::unexpected(journal.error());
+        options.journal = std::move(*journal);
+    }
     if (options.command == Command::Packet) {
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());

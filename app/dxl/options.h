@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
@@ -25,6 +26,7 @@ enum class Command {
     Clear,
     Completion,
     Info,
+    Journal,
     Led,
     Models,
     Packet,
@@ -83,6 +85,7 @@ struct Options {
     QString shell;
     ModelsArguments models;
     SimOptions sim;
+    JournalOptions journal;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

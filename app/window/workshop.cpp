@@ -50,12 +50,13 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_session(m_lines, m_catalog)
     , m_journal(isPicture(options) ? QString() : Journal::usualFolder())
     , m_commands(m_session, &m_journal)
+    , m_undo(m_session, m_commands)
     , m_monitor(m_session)
     , m_stop(m_session, m_commands)
 {
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
-        Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines});
+        Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines, &m_journal, &m_undo});
     m_window->setScheme(storedScheme());
     m_window->setRefusedTables(m_tables.refused);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),

@@ -3,7 +3,7 @@
 
 #include "app/window/lines.h"
 #include "app/window/options.h"
-#include "core/session/journal/journal.h"
+#include "core/session/journal/undo.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
 #include "core/session/monitor.h"
@@ -40,6 +40,7 @@ private:
     Session m_session;
     Journal m_journal;
     Commands m_commands;
+    Undo m_undo;
     Monitor m_monitor;
     Scanner m_scanner;
     StopControl m_stop;

@@ -9,6 +9,7 @@ target_sources(dynascope_core PRIVATE
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h
     session/journal/journalnote.cpp session/journal/journalnote.h
+    session/journal/journaltexts.cpp session/journal/journaltexts.h
     session/journal/journalwrites.cpp session/journal/journalwrites.h
     session/journal/undo.cpp session/journal/undo.h
     session/journal/undoplan.cpp session/journal/undoplan.h

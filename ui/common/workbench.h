@@ -9,6 +9,8 @@ class Monitor;
 class Scanner;
 class StopControl;
 class PortList;
+class Journal;
+class Undo;
 
 /// What the window's parts work on. Made by app, which owns all of it and outlives the window.
 struct Workbench {
@@ -18,6 +20,8 @@ struct Workbench {
     Scanner &scanner;
     StopControl &stop;
     PortList &ports;
+    Journal *journal = nullptr; ///< with `undo`, or neither
+    Undo *undo = nullptr;
 };
 
 } // namespace dynascope

@@ -19,6 +19,7 @@ Menus::Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout)
     , m_window(window)
 {
     makeFileMenu(offered.save);
+    makeEditMenu(offered.edit);
     makeViewMenu(layout);
     makeDeviceMenu(offered.device);
     makeDemoMenu();
@@ -69,6 +70,19 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
     QAction *quit = add(menu, QStringLiteral("quitAction"), tr("&Quit"), QStringLiteral("Ctrl+Q"));
     quit->setMenuRole(QAction::QuitRole);
     connect(quit, &QAction::triggered, &m_window, &QWidget::close);
+}
+
+void Menus::makeEditMenu(const std::vector<QAction *> &actions)
+{
+    if (actions.empty())
+        return;
+    QMenu *menu = m_window.menuBar()->addMenu(tr("&Edit"));
+    for (QAction *action : actions) {
+        if (action)
+            menu->addAction(action);
+        else
+            menu->addSeparator();
+    }
 }
 
 void Menus::fillRecent(QMenu *menu)

@@ -22,6 +22,7 @@ public:
     struct Offered {
         std::vector<QAction *> device;
         std::vector<QAction *> save;
+        std::vector<QAction *> edit = {};
     };
 
     Menus(QMainWindow &window, const Offered &offered, LayoutManager &layout);
@@ -48,6 +49,7 @@ private:
     QAction *add(
         QMenu *menu, const QString &name, const QString &text, const QString &shortcut, const QString &iconName = {});
     void makeFileMenu(const std::vector<QAction *> &saveActions);
+    void makeEditMenu(const std::vector<QAction *> &actions);
     void makeViewMenu(LayoutManager &layout);
     void addHealth(QMenu *menu, LayoutManager &layout);
     void makeDeviceMenu(const std::vector<QAction *> &actions);

@@ -80,7 +80,7 @@ void Undo::take(const UndoStep &step, JournalNote note, const Result<UndoResult>
 {
     note.finish(outcomeOf(step, result));
     m_sequence.take(step, result);
-    if (result)
+    if (result && result->registers.missing == Consent::None)
         update(step, *result);
     next();
 }

@@ -25,6 +25,7 @@ public:
     qint64 nextToRedo() const;
 
     /// In any order: the newest is undone first, the oldest redone first.
+    Consent missing() const { return m_sequence.missing(); } ///< what the last run() failed for want of
     void run(std::vector<qint64> numbers, Direction direction, const UndoOptions &options, Done done = {});
 
 signals:

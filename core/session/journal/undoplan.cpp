@@ -3,6 +3,7 @@
 
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
+#include "core/session/procedures/atbaud.h"
 #include "core/table/catalog.h"
 
 #include <QCoreApplication>
@@ -159,6 +160,31 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
     return step;
 }
 
+/// A later entry that stands and changed the same register of the same device; 0: none. Torque is not taken back anyway.
+qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry)
+{
+    const RegisterChange &main = entry.changes.front();
+    if (isRegister(main, Known::TorqueEnable))
+        return 0;
+    const std::set<qint64> undone = undoneEntries(entries);
+    JournalPlace place = entry.movedTo.value_or(JournalPlace{entry.device.id, entry.device.baudRate});
+    for (const JournalEntry &later : entries) {
+        const JournalPlace from{later.device.id, later.device.baudRate};
+        if (later.number <= entry.number || from != place || later.device.modelNumber != entry.device.modelNumber
+            || !isSameLine(later.device, entry.device) || later.state == JournalState::Failed)
+            continue;
+        const bool touches = std::ranges::any_of(later.changes, [&](const RegisterChange &change) {
+            const bool follows = &change != &later.changes.front() && change.name.startsWith(QLatin1String("Goal "));
+            return !follows && change.address < main.address + static_cast<int>(main.after.size())
+                   && main.address < change.address + static_cast<int>(change.after.size());
+        });
+        if (touches && isPlain(later) && !undone.contains(later.number))
+            return later.number;
+        place = later.movedTo.value_or(place);
+    }
+    return 0;
+}
+
 } // namespace
 
 std::set<qint64> undoneEntries(const JournalEntries &entries)
@@ -265,7 +291,7 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     step.place.name = deviceText(step.entry.device);
     const Field *torque = table ? table->find(Known::TorqueEnable) : nullptr;
     if (torque)
-        step.place.torqueAddress = torque->address;
+        step.registers.torqueAddress = step.place.torqueAddress = torque->address;
     const RegisterChange &main = entry.changes.front();
     if (isRegister(main, Known::Id) || isRegister(main, Known::BaudRate))
         return planMove(std::move(step), entry, table.get(), options);
@@ -273,8 +299,6 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     RevertPlan &plan = step.registers;
     plan.place = step.place;
     plan.firmware = entry.device.firmware;
-    if (torque)
-        plan.torqueAddress = torque->address;
     const Field *mode = table ? table->find(u"Drive Mode") : nullptr;
     if (mode && std::ranges::find(mode->bits, TorqueOnByGoalBit, &BitField::first) != mode->bits.end())
         plan.driveModeAddress = mode->address;
@@ -287,6 +311,7 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     }
     keepOthers(plan, main, table.get());
     plan.readsNothing = isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    plan.changedSince = direction == Direction::Undo ? changedSince(entries, entry) : 0;
     plan.goals = table ? spansOf(*table, step.place.id, isGoal) : std::vector<Span>();
     plan.mayMove = options.mayMove;
     plan.mayTurnTorqueOff = options.mayTurnTorqueOff;
@@ -312,6 +337,17 @@ Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
                                                 .arg(step.place.baudRate)
                                                 .arg(step.place.name));
     }
+    const bool mayTurnOff = step.newId ? step.newId->turnTorqueOff : step.newBaud->turnTorqueOff;
+    if (step.registers.torqueAddress && !mayTurnOff) {
+        const AtBaud here(context.bus(), step.place.baudRate);
+        const auto torque = read(context.bus(), {step.place.id, *step.registers.torqueAddress, 1});
+        if (torque && torque->data.front() != 0) {
+            result.registers.missing = Consent::TorqueOff;
+            result.registers.why =
+                tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(step.place.name);
+            return result;
+        }
+    }
     auto found = step.newId ? changeId(context, *step.newId) : changeBaud(context, *step.newBaud);
     if (!found)
         return tl::unexpected(found.error());
@@ -328,6 +364,11 @@ JournalEntry outcomeOf(const UndoStep &step, const Result<UndoResult> &result)
         return outcome;
     }
     outcome.state = JournalState::Done;
+    if (result->registers.missing != Consent::None) {
+        outcome.state = JournalState::Failed;
+        outcome.note = result->registers.why;
+        return outcome;
+    }
     if (result->moved) {
         outcome.movedTo = JournalPlace{result->moved->id, result->moved->baudRate};
         outcome.changes.front().shown = outcome.changes.front().after;

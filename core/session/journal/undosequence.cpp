@@ -116,6 +116,10 @@ void UndoSequence::take(const UndoStep &step, const Result<UndoResult> &result)
 {
     if (!result)
         return fail(ofEntry(step, result.error()));
+    if (result->registers.missing != Consent::None) {
+        m_missing = result->registers.missing;
+        return fail(ofEntry(step, {ErrorKind::InvalidArgument, result->registers.why}));
+    }
     m_carriedOut += m_resting ? 0 : 1;
     if (result->moved)
         return follow(step, *result->moved);

@@ -24,6 +24,7 @@ public:
     int carriedOut() const { return m_carriedOut; } ///< entries
     /// Once it is over: what it failed at.
     const Result<void> &outcome() const { return m_outcome; }
+    Consent missing() const { return m_missing; } ///< it failed for want of that
 
 private:
     using Place = std::pair<int, int>; ///< baud rate, ID
@@ -47,6 +48,7 @@ private:
     bool m_resting = false, m_over = false;
     int m_carriedOut = 0;
     Result<void> m_outcome;
+    Consent m_missing = Consent::None;
 };
 
 } // namespace dynascope

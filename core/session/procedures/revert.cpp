@@ -58,6 +58,8 @@ public:
                     return tl::unexpected(fine.error());
             }
         }
+        if (m_result.missing != Consent::None)
+            return std::move(m_result);
         if (const auto go = m_context.checkpoint(); !go)
             return tl::unexpected(go.error());
         const JobContext::Exclusive exclusive(m_context);
@@ -142,6 +144,12 @@ private:
         for (const RevertRegister &each : m_registers) {
             const bool isMain = &each == &m_registers.front();
             const Bytes now = present(each);
+            const bool isWaiting = m_plan.unchecked.contains(each.address);
+            if (isMain && !isWaiting && now == each.to && now != each.from && m_plan.changedSince > 0) {
+                return refused(tr("%1 of %2 is %3 by entry %4, which came later")
+                                   .arg(each.name, m_plan.place.name, valueText(now))
+                                   .arg(m_plan.changedSince));
+            }
             if (now == each.from || now == each.to || (!isMain && each.isGoal)
                 || m_plan.unchecked.contains(each.address))
                 continue;
@@ -192,13 +200,20 @@ private:
         if (!m_torque)
             return {};
         if ((locked || m_endsTorque) && !m_plan.mayTurnTorqueOff) {
-            return refused(m_endsTorque ? tr("The torque of %1 would go off").arg(m_plan.place.name)
-                                        : tr("%1 is under torque, which locks its EEPROM").arg(m_plan.place.name));
+            needs(Consent::TorqueOff, m_endsTorque
+                                          ? tr("The torque of %1 would go off").arg(m_plan.place.name)
+                                          : tr("%1 is under torque, which locks its EEPROM").arg(m_plan.place.name));
+        } else if (moves && !m_plan.mayMove && !locked && !m_endsTorque) {
+            needs(Consent::Motion, tr("%1 is under torque and would move").arg(m_plan.place.name));
         }
-        if (moves && !m_plan.mayMove && !locked && !m_endsTorque)
-            return refused(tr("%1 is under torque and would move").arg(m_plan.place.name));
         m_result.torqueTurnedOff = locked && !m_endsTorque;
         return {};
+    }
+
+    void needs(Consent consent, const QString &why)
+    {
+        m_result.missing = consent;
+        m_result.why = tr("%1; nothing was written").arg(why);
     }
 
     Result<void> writeAll()

@@ -32,6 +32,7 @@ struct RevertPlan {
     std::vector<Span> goals;                       ///< of the device, for what leads somewhere
     std::optional<std::uint16_t> driveModeAddress; ///< where its bit 3 lets a goal turn torque on
     std::set<std::uint16_t> unchecked;             ///< addresses that may hold anything
+    qint64 changedSince = 0;                       ///< a later entry that stands wrote the first register, too; 0: none
     bool readsNothing = false;                     ///< it answers Ping alone until the first register is written
     bool mayMove = false;                          ///< a goal may be written under torque
     bool mayTurnTorqueOff = false;                 ///< what it carries may fall
@@ -44,7 +45,16 @@ struct LeftRegister {
     QString why;
 };
 
+/// What a person has to allow first.
+enum class Consent {
+    None,
+    Motion,    ///< a motor would move
+    TorqueOff, ///< torque would go off; what it carries may fall
+};
+
 struct Reverted {
+    Consent missing = Consent::None; ///< else nothing was written, and `why` says it
+    QString why;
     std::vector<PollValue> before, after; ///< the registers of the plan, in stretches
     std::vector<LeftRegister> left;
     bool torqueTurnedOff = false; ///< to unlock the EEPROM

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/journal/journaldialog.h"
+
+#include "ui/journal/journalmodel.h"
+
+#include <QDialogButtonBox>
+#include <QHeaderView>
+#include <QPushButton>
+#include <QTreeView>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace dynascope {
+
+JournalDialog::JournalDialog(const Workbench &workbench, QWidget *window)
+    : QDialog(window)
+    , m_workbench(workbench)
+    , m_model(new JournalModel(*workbench.journal, workbench.session.catalog(), this))
+    , m_view(new QTreeView(this))
+    , m_undo(new QPushButton(tr("&Undo"), this))
+    , m_redo(new QPushButton(tr("&Redo"), this))
+{
+    setObjectName(QStringLiteral("journalDialog"));
+    setWindowTitle(tr("Journal"));
+    makeView();
+    m_undo->setObjectName(QStringLiteral("journalUndoButton"));
+    m_redo->setObjectName(QStringLiteral("journalRedoButton"));
+    for (QPushButton *button : {m_undo, m_redo})
+        button->setAutoDefault(false);
+    auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+    buttons->addButton(m_undo, QDialogButtonBox::ActionRole);
+    buttons->addButton(m_redo, QDialogButtonBox::ActionRole);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(m_undo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Undo); });
+    connect(m_redo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Redo); });
+    auto *layout = new QVBoxLayout(this);
+    layout->addWidget(m_view);
+    layout->addWidget(buttons);
+    connect(m_workbench.undo, &Undo::busyChanged, this, &JournalDialog::update);
+    resize(860, 480);
+    update();
+}
+
+void JournalDialog::makeView()
+{
+    m_view->setObjectName(QStringLiteral("journalView"));
+    m_view->setAccessibleName(tr("Journal"));
+    m_view->setRootIsDecorated(false);
+    m_view->setUniformRowHeights(true);
+    m_view->setSelectionMode(QAbstractItemView::ExtendedSelection);
+    m_view->setModel(m_model);
+    m_view->header()->setSectionResizeMode(static_cast<int>(JournalColumn::Change), QHeaderView::Stretch);
+    m_view->header()->setStretchLastSection(false);
+    for (const auto &[column, widest] :
+         {std::pair{JournalColumn::Number, "00000"}, std::pair{JournalColumn::Time, "0000-00-00 00:00:00"},
+          std::pair{JournalColumn::By, "windoww"}, std::pair{JournalColumn::Device, "XM430-W350-T #252"},
+          std::pair{JournalColumn::Register, "Operating Mode and 10 more"},
+          std::pair{JournalColumn::State, "undo of 00000, failed"}}) {
+        m_view->setColumnWidth(static_cast<int>(column), fontMetrics().horizontalAdvance(QLatin1String(widest)) + 16);
+    }
+    connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, &JournalDialog::update);
+    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this, [this] { m_selected = selected(); });
+    connect(m_model, &QAbstractItemModel::modelReset, this, &JournalDialog::restoreSelection);
+}
+
+std::vector<qint64> JournalDialog::selected() const
+{
+    std::vector<qint64> numbers;
+    for (const QModelIndex &index : m_view->selectionModel()->selectedRows())
+        numbers.push_back(m_model->numberAt(index.row()));
+    return numbers;
+}
+
+void JournalDialog::restoreSelection()
+{
+    QItemSelection selection;
+    for (const qint64 number : m_selected) {
+        if (const int row = m_model->rowOf(number); row >= 0)
+            selection.select(m_model->index(row, 0), m_model->index(row, JournalColumns - 1));
+    }
+    m_view->selectionModel()->select(selection, QItemSelectionModel::ClearAndSelect);
+    update();
+}
+
+/// A button says why it can't be pressed.
+void JournalDialog::update()
+{
+    const std::vector<qint64> numbers = selected();
+    const auto offer = [&](QPushButton &button, Direction direction) {
+        QString why = numbers.empty() ? tr("Select entries first") : QString();
+        for (const qint64 number : numbers) {
+            if (why.isEmpty())
+                why = whyNot(m_workbench.journal->entries(), number, direction);
+        }
+        button.setEnabled(why.isEmpty() && !m_workbench.undo->isBusy());
+        button.setToolTip(why);
+    };
+    offer(*m_undo, Direction::Undo);
+    offer(*m_redo, Direction::Redo);
+}
+
+} // namespace dynascope
