@@ -162,7 +162,7 @@ void LibraryDialog::addKeys()
 /// Limits and units have more room in a wide window.
 void LibraryDialog::resizeEvent(QResizeEvent *event)
 {
-    m_registerView->setColumnWidth(RegisterModel::Range, std::clamp(width() / 8, 120, 220));
+    m_registerView->setColumnWidth(RegisterModel::Range, std::clamp(width() * 2 / 9, 150, 300));
     m_registerView->setColumnWidth(RegisterModel::UnitColumn, std::clamp(width() / 9, 84, 124));
     QDialog::resizeEvent(event);
 }

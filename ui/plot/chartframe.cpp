@@ -206,9 +206,9 @@ void ChartFrame::paintValues(QPainter &painter, const Content &content, int axis
         painter.drawText(QRectF(left, y - line / 2, width, line), Qt::AlignVCenter | side | Qt::TextDontClip,
                          labelText(at, value.range.decimals));
     });
-    // Above its column it stays clear of the topmost number.
-    const QRectF above = axis == 0 ? QRectF(area.left(), 0, area.width(), area.top() - 3)
-                                   : QRectF(left, 1, column, line);
+    // Above its column, clear of the topmost number; all axes have it at the same height.
+    const qreal room = QFontMetricsF(content.font).horizontalAdvance(value.title) + 1;
+    const QRectF above(axis == 0 ? std::max(0.0, width - room) : left, 1, std::max(column, room), line);
     painter.drawText(above, Qt::AlignBottom | Qt::AlignLeft | Qt::TextDontClip, value.title);
 }
 
