@@ -54,7 +54,8 @@ private:
     static void kinds();
     Outcome dxl(const QStringList &arguments) const
     {
-        return test::dxl(QStringList{u"--port"_s, m_net->address()} + arguments);
+        // A loaded machine may take its time: nobody is called silent for that.
+        return test::dxl(QStringList{u"--port"_s, m_net->address(), u"--timeout"_s, u"400"_s} + arguments);
     }
     void serve(Ser2net::Kind kind) { m_net = std::make_unique<Ser2net>(m_server->path(), kind); }
     int writesOnTheWire();
