@@ -22,6 +22,21 @@ DevicePlace placeOf(const Device &device)
     return placeOf(device.found(), device.table(), device.displayName());
 }
 
+MoveDevice moveDevice(const Found &found, const ControlTable &table, const QString &name)
+{
+    MoveDevice device;
+    device.place = placeOf(found, table, name);
+    device.firmware = found.firmware;
+    device.goal = {found.baudRate, found.id};
+    if (const Field *id = table.find(Known::Id))
+        device.idAddress = id->address;
+    if (const Field *baud = table.find(Known::BaudRate))
+        device.baudAddress = baud->address;
+    for (const BaudCode &code : table.description().baudCodes)
+        device.rates.emplace_back(code.rate, code.code);
+    return device;
+}
+
 DevicePlace placeAfterReset(const Device &device, ResetOption option)
 {
     DevicePlace place = placeOf(device);

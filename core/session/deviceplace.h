@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/procedures/procedures.h"
+#include "core/session/procedures/moveplan.h"
 #include "core/table/controltable.h"
 
 namespace dynascope {
@@ -11,6 +11,9 @@ class Device;
 /// Where a device is that was found there and has this table, for procedures.
 DevicePlace placeOf(const Found &found, const ControlTable &table, const QString &name);
 DevicePlace placeOf(const Device &device);
+
+/// As a plan of moves has it, at home where it is.
+MoveDevice moveDevice(const Found &found, const ControlTable &table, const QString &name);
 
 /// Where a Factory Reset leaves the device: its table's defaults for what the option doesn't keep.
 DevicePlace placeAfterReset(const Device &device, ResetOption option);

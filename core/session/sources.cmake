@@ -21,6 +21,8 @@ target_sources(dynascope_core PRIVATE
     session/placecommands.cpp
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
+    session/procedures/movedevices.cpp session/procedures/movedevices.h
+    session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
     session/reopener.cpp session/reopener.h

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/procedures/movedevices.h"
+
+#include "core/bus/messages.h"
+#include "core/session/procedures/atbaud.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <set>
+
+namespace dynascope {
+namespace {
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("Procedures", text);
+}
+
+bool isSilence(const Error &error)
+{
+    return error.kind == ErrorKind::NothingReceived;
+}
+
+DevicePlace at(const MoveDevice &device, const MovePlace &place)
+{
+    DevicePlace there = device.place;
+    there.id = static_cast<std::uint8_t>(place.id);
+    there.baudRate = place.baudRate;
+    return there;
+}
+
+Result<void> tryRates(Bus &bus, const MovePlan &plan)
+{
+    std::set<int> rates;
+    for (std::size_t i = plan.next; i < plan.steps.size(); ++i)
+        rates.insert({plan.steps[i].from.baudRate, plan.steps[i].to.baudRate});
+    for (const int rate : rates) {
+        if (rate == bus.line().baudRate())
+            continue;
+        if (!bus.line().canSetBaudRate())
+            return tl::unexpected(messages::deviceRateBound(bus.line().name()));
+        const AtBaud there(bus, rate);
+        if (!there.entered())
+            return failure(there.entered().error().kind,
+                           tr("%1; nothing was written").arg(there.entered().error().text));
+    }
+    return {};
+}
+
+Result<bool> isAtPlace(JobContext &context, const MoveDevice &device, const MovePlace &place)
+{
+    const auto found = look(context, at(device, place));
+    if (found)
+        return found->modelNumber == device.place.modelNumber && found->firmware == device.firmware;
+    if (isSilence(found.error()))
+        return false;
+    return tl::unexpected(found.error());
+}
+
+/// Was the begun step done before the program ended?
+Result<void> findBegun(JobContext &context, MovePlan &plan)
+{
+    if (plan.isOver())
+        return {};
+    const MoveStep &step = plan.steps[plan.next];
+    const MoveDevice &device = plan.devices[step.device];
+    const auto there = isAtPlace(context, device, step.to);
+    if (!there)
+        return tl::unexpected(there.error());
+    const auto here = isAtPlace(context, device, step.from);
+    if (!here)
+        return tl::unexpected(here.error());
+    if (*there && !*here)
+        ++plan.next;
+    return {};
+}
+
+Result<void> checkPresent(JobContext &context, const MovePlan &plan)
+{
+    for (std::size_t i = 0; i < plan.devices.size(); ++i) {
+        const bool isConcerned =
+            std::ranges::any_of(plan.steps, [i](const MoveStep &step) { return step.device == i; });
+        if (!isConcerned)
+            continue;
+        if (const auto go = context.checkpoint(); !go)
+            return go;
+        const MovePlace place = plan.placeOf(i);
+        const auto there = isAtPlace(context, plan.devices[i], place);
+        if (!there)
+            return tl::unexpected(there.error());
+        if (!*there) {
+            return failure(ErrorKind::NotFound,
+                           tr("%1 does not answer as %2, or another device does; nothing was written")
+                               .arg(plan.devices[i].place.name, placeText(place)));
+        }
+    }
+    return {};
+}
+
+/// Of the places to come, those that none of the plan's own devices has now.
+Result<void> checkFree(JobContext &context, const MovePlan &plan)
+{
+    std::set<MovePlace> known, wanted;
+    for (std::size_t i = 0; i < plan.devices.size(); ++i)
+        known.insert(plan.placeOf(i));
+    for (std::size_t i = plan.next; i < plan.steps.size(); ++i) {
+        if (!known.contains(plan.steps[i].to))
+            wanted.insert(plan.steps[i].to);
+    }
+    for (const MovePlace &place : wanted) {
+        if (const auto go = context.checkpoint(); !go)
+            return go;
+        const AtBaud there(context.bus(), place.baudRate);
+        if (!there.entered())
+            return there.entered();
+        const auto answer = context.bus().exchange(pingRequest(static_cast<std::uint8_t>(place.id)), 0);
+        if (!answer)
+            return tl::unexpected(answer.error());
+        const auto &reply = answer->replies.front();
+        // Noise is looked into when its turn comes.
+        if (reply || reply.error().kind == ErrorKind::DamagedCrc || reply.error().kind == ErrorKind::Refused) {
+            return failure(ErrorKind::InvalidArgument,
+                           tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
+        }
+    }
+    return {};
+}
+
+Result<Found> carryOut(JobContext &context, const MovePlan &plan, const MoveStep &step)
+{
+    const MoveDevice &device = plan.devices[step.device];
+    const DevicePlace from = at(device, step.from);
+    if (!step.isBaud()) {
+        return changeId(context, {from, static_cast<std::uint8_t>(step.to.id), device.idAddress, plan.turnTorqueOff});
+    }
+    const auto rate =
+        std::ranges::find_if(device.rates, [&](const auto &each) { return each.first == step.to.baudRate; });
+    if (rate == device.rates.end())
+        return failure(ErrorKind::InvalidArgument,
+                       tr("%1 does not offer %2 bps").arg(device.place.name).arg(step.to.baudRate));
+    return changeBaud(context, {from, step.to.baudRate, static_cast<std::uint8_t>(rate->second), device.baudAddress,
+                                plan.turnTorqueOff});
+}
+
+} // namespace
+
+Result<void> checkMoves(JobContext &context, MovePlan &plan)
+{
+    if (const auto able = tryRates(context.bus(), plan); !able)
+        return able;
+    if (const auto found = findBegun(context, plan); !found)
+        return found;
+    if (const auto present = checkPresent(context, plan); !present)
+        return present;
+    return checkFree(context, plan);
+}
+
+Result<void> moveDevices(JobContext &context, MovePlan &plan, const MoveHooks &hooks)
+{
+    while (!plan.isOver()) {
+        if (const auto go = context.checkpoint(); !go)
+            return go;
+        if (const auto saved = hooks.save ? hooks.save(plan) : Result<void>(); !saved)
+            return saved;
+        const MoveStep &step = plan.steps[plan.next];
+        if (hooks.begun)
+            hooks.begun(step);
+        const auto found = carryOut(context, plan, step);
+        if (hooks.ended)
+            hooks.ended(step, found);
+        if (!found)
+            return tl::unexpected(found.error());
+        ++plan.next;
+    }
+    return hooks.save ? hooks.save(plan) : Result<void>();
+}
+
+} // namespace dynascope
