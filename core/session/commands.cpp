@@ -31,7 +31,7 @@ std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
 
 bool isGoal(const Field &field)
 {
-    return field.name.startsWith(QLatin1String("Goal "));
+    return field.name.startsWith(QLatin1String("Goal ")) || field.name == u"Moving Speed"; // the latter: XL-320
 }
 
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
@@ -80,15 +80,15 @@ Commands::Done Commands::reporting(Device &device, const QString &success, Done 
     };
 }
 
-Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const
+Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw, bool insisting) const
 {
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
     // Indirect Data may point at a goal or at Torque Enable.
-    const bool mayMove = isGoal(field) || field.name.startsWith(QLatin1String("Indirect Data"))
+    const bool mayMove = isGoal(field) || field.mayBeTried() || field.name.startsWith(QLatin1String("Indirect Data"))
         || (&field == device.table().find(Known::TorqueEnable) && raw != 0);
     if (m_stopped && mayMove)
         return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
-    const QString lock = device.lockReason(fieldIndex);
+    const QString lock = device.lockReason(fieldIndex, insisting);
     if (!lock.isEmpty())
         return failure(ErrorKind::InvalidArgument, lock);
     return checkRange(field, device.effective(fieldIndex), raw);
@@ -96,7 +96,17 @@ Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int
 
 void Commands::writeField(Device &device, int fieldIndex, std::int64_t raw, Done done)
 {
-    if (const auto allowed = checkWrite(device, fieldIndex, raw); !allowed)
+    write(device, fieldIndex, raw, false, std::move(done));
+}
+
+void Commands::writeUnknown(Device &device, int fieldIndex, std::int64_t raw, Done done)
+{
+    write(device, fieldIndex, raw, true, std::move(done));
+}
+
+void Commands::write(Device &device, int fieldIndex, std::int64_t raw, bool insisting, Done done)
+{
+    if (const auto allowed = checkWrite(device, fieldIndex, raw, insisting); !allowed)
         return refuse(&device, allowed.error(), done);
     const auto onItsWay = m_writes.find({device.key(), fieldIndex});
     if (onItsWay == m_writes.end())
@@ -104,7 +114,7 @@ void Commands::writeField(Device &device, int fieldIndex, std::int64_t raw, Done
     std::optional<Waiting> &slot = onItsWay->second;
     if (slot && slot->done)
         slot->done(failure(ErrorKind::Cancelled, tr("A newer value took its place")));
-    slot = Waiting{raw, std::move(done)};
+    slot = Waiting{raw, insisting, std::move(done)};
     device.setPending(fieldIndex, raw);
 }
 
@@ -156,12 +166,16 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw,
             || values.error().kind == ErrorKind::PortLost);
     if (!device || ended) // what waited behind it must not go out after a STOP
         return refuse(nullptr, {ErrorKind::Cancelled, tr("The write before it was cancelled")}, next->done);
-    writeField(*device, fieldIndex, next->raw, std::move(next->done));
+    write(*device, fieldIndex, next->raw, next->insisting, std::move(next->done));
 }
 
 void Commands::readAll(Device &device, Done done)
 {
-    ReadSpansPlan plan{placeOf(device), spansOf(device, [](const Field &) { return true; })};
+    // Where nobody knows which bytes there are, a piece that is refused should be small.
+    constexpr int Piece = 16;
+    constexpr int Usual = 128;
+    ReadSpansPlan plan{placeOf(device),
+                       spansOf(device, [](const Field &) { return true; }, device.isKnownModel() ? Usual : Piece)};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Normal, this, [plan = std::move(plan)](JobContext &context) { return readSpans(context, plan); },
         [this, key = device.key(), from = std::pair(device.id(), device.baudRate()), done = std::move(done)](
