@@ -75,8 +75,8 @@ public:
     bool mayHaveTorqueOn() const; ///< it is on, or was turned on or off and nobody could read what came of it
     bool isTorqueOn() const { return raw(Known::TorqueEnable).value_or(0) == 1; }
     bool goalTurnsTorqueOn() const; ///< by its Drive Mode, where its firmware knows that
-    /// Why the field can't be written now, in a sentence; empty where it can. Silence is no reason: a device may be told to
-    /// be silent, by its Status Return Level, and hear nevertheless. `insisting`: though nobody knows (Field::mayBeTried).
+    /// Why the field can't be written now, a sentence; empty where it can. Silence is no reason: a device may be told to
+    /// be silent (Status Return Level) and hear nevertheless. `insisting`: though nobody knows (Field::mayBeTried).
     QString lockReason(int fieldIndex, bool insisting = false) const;
 
     void setNickname(const QString &name);
