@@ -27,6 +27,13 @@ std::vector<Span> sideEffectsOf(const Device &device, const Field &field)
     return spansOf(device, [&field](const Field &other) { return field.resets.contains(other.name); });
 }
 
+/// Manual: "Hybrid Save". It is a request and its answer in one register.
+Bytes laterBytes(const Field &field, std::int64_t raw)
+{
+    constexpr std::int64_t Save = 1, Saved = 2;
+    return field.name == u"Hybrid Save" && raw == Save ? bytesFromRaw(field, Saved) : Bytes();
+}
+
 } // namespace
 
 bool isGoal(const Field &field)
@@ -125,7 +132,7 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     device.setPending(fieldIndex, raw);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
                         sideEffectsOf(device, field),
-                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0};
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, laterBytes(field, raw)};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
         [this, key = device.key(), fieldIndex, raw,

@@ -31,6 +31,7 @@ struct WriteFieldPlan {
     SpanData data;
     std::vector<Span> sideEffects;
     bool leavesOnlyPing = false; ///< the value tells the device to answer nothing else: no Read will show it
+    Bytes becomes = {};          ///< what the device itself makes of it once it is done; empty: it stays
 };
 Result<std::vector<PollValue>> writeField(JobContext &context, const WriteFieldPlan &plan);
 
