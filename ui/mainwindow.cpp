@@ -24,6 +24,7 @@
 #include "ui/window/outcomes.h"
 #include "ui/window/statusview.h"
 #include "ui/window/torqueguard.h"
+#include "ui/window/unitmenu.h"
 #include "ui/window/welcomepage.h"
 
 #include <QApplication>
@@ -155,6 +156,7 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::stopRequested, &m_workbench.stop, &StopControl::press);
     connect(m_health, &HealthPanel::closeRequested, m_layout, [this] { m_layout->setHealthShown(false); });
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
+    connect(m_menus, &Menus::unitsChosen, this, &MainWindow::setUnits);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
         saveColorScheme(scheme);
         emit schemeRequested(scheme);
@@ -280,9 +282,16 @@ void MainWindow::focusPane(int pane)
         next->setFocus(Qt::ShortcutFocusReason);
 }
 
+void MainWindow::setUnits(const UnitPreferences &units)
+{
+    m_table->setUnits(units);
+    m_plots->setUnits(units);
+}
+
 void MainWindow::restoreParts()
 {
     m_layout->restore();
+    setUnits(savedUnits()); // before the plots' scales
     const QSettings settings;
     m_plots->restoreState(settings.value(PlotsKey).toByteArray());
     m_table->restoreState(settings.value(TableKey).toByteArray());

@@ -25,6 +25,7 @@ class StatusView;
 class TablePanel;
 class TorqueGuard;
 class WelcomePage;
+struct UnitPreferences;
 struct Watch;
 
 /// The window: devices left, control table centre, plots right or below, Bus health under them where it is wanted;
@@ -58,6 +59,7 @@ private:
     void connectDevices();
     void connectConnection();
     void connectPlots();
+    void setUnits(const UnitPreferences &units);
     void onSelection();
     void onLines();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
