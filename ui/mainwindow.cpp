@@ -26,6 +26,7 @@
 #include "ui/window/outcomes.h"
 #include "ui/window/statusview.h"
 #include "ui/window/torqueguard.h"
+#include "ui/window/unitmenu.h"
 #include "ui/window/welcomepage.h"
 
 #include <QApplication>
@@ -166,6 +167,7 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
+    connect(m_menus, &Menus::unitsChosen, this, &MainWindow::setUnits);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
         saveColorScheme(scheme);
         emit schemeRequested(scheme);
@@ -306,9 +308,16 @@ void MainWindow::focusPane(int pane)
         next->setFocus(Qt::ShortcutFocusReason);
 }
 
+void MainWindow::setUnits(const UnitPreferences &units)
+{
+    m_table->setUnits(units);
+    m_plots->setUnits(units);
+}
+
 void MainWindow::restoreParts()
 {
     m_layout->restore();
+    setUnits(savedUnits()); // before the plots' scales
     const QSettings settings;
     m_plots->restoreState(settings.value(PlotsKey).toByteArray());
     m_table->restoreState(settings.value(TableKey).toByteArray());

@@ -26,6 +26,7 @@ class StatusView;
 class TablePanel;
 class TorqueGuard;
 class WelcomePage;
+struct UnitPreferences;
 struct Watch;
 
 /// The window: devices left, control table centre, plots right or below, Bus health under them where it is wanted;
@@ -60,6 +61,7 @@ private:
     void connectDevices();
     void connectConnection();
     void connectPlots();
+    void setUnits(const UnitPreferences &units);
     void onSelection();
     void onLines();
     void openLibrary();

@@ -10,5 +10,6 @@ target_sources(dynascope_ui PRIVATE
     window/outcomes.cpp window/outcomes.h
     window/statusview.cpp window/statusview.h
     window/torqueguard.cpp window/torqueguard.h
+    window/unitmenu.cpp window/unitmenu.h
     window/welcomepage.cpp window/welcomepage.h
 )

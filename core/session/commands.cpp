@@ -23,6 +23,13 @@ std::vector<const Field *> affectedNow(const Device &device, const Field &field)
     return affectedBy(device.table(), field, device.goalTurnsTorqueOn() && !device.isTorqueOn());
 }
 
+/// Manual: "Hybrid Save". It is a request and its answer in one register.
+Bytes laterBytes(const Field &field, std::int64_t raw)
+{
+    constexpr std::int64_t Save = 1, Saved = 2;
+    return field.name == u"Hybrid Save" && raw == Save ? bytesFromRaw(field, Saved) : Bytes();
+}
+
 } // namespace
 
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
@@ -58,15 +65,15 @@ Commands::Done Commands::reporting(Device &device, const QString &success, Done 
     };
 }
 
-Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const
+Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int64_t raw, bool insisting) const
 {
     const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
     // Indirect Data may point at a goal or at Torque Enable.
-    const bool mayMove = isGoal(field) || isIndirectData(field)
+    const bool mayMove = isGoal(field) || field.mayBeTried() || isIndirectData(field)
         || (&field == device.table().find(Known::TorqueEnable) && raw != 0);
     if (m_stopped && mayMove)
         return failure(ErrorKind::Stopped, tr("STOP is held: release it before anything moves again"));
-    const QString lock = device.lockReason(fieldIndex);
+    const QString lock = device.lockReason(fieldIndex, insisting);
     if (!lock.isEmpty())
         return failure(ErrorKind::InvalidArgument, lock);
     return checkRange(field, device.effective(fieldIndex), raw);
@@ -74,7 +81,17 @@ Result<void> Commands::checkWrite(const Device &device, int fieldIndex, std::int
 
 void Commands::writeField(Device &device, int fieldIndex, std::int64_t raw, Done done)
 {
-    if (const auto allowed = checkWrite(device, fieldIndex, raw); !allowed)
+    write(device, fieldIndex, raw, false, std::move(done));
+}
+
+void Commands::writeUnknown(Device &device, int fieldIndex, std::int64_t raw, Done done)
+{
+    write(device, fieldIndex, raw, true, std::move(done));
+}
+
+void Commands::write(Device &device, int fieldIndex, std::int64_t raw, bool insisting, Done done)
+{
+    if (const auto allowed = checkWrite(device, fieldIndex, raw, insisting); !allowed)
         return refuse(&device, allowed.error(), done);
     const auto onItsWay = m_writes.find({device.key(), fieldIndex});
     if (onItsWay == m_writes.end())
@@ -82,7 +99,7 @@ void Commands::writeField(Device &device, int fieldIndex, std::int64_t raw, Done
     std::optional<Waiting> &slot = onItsWay->second;
     if (slot && slot->done)
         slot->done(failure(ErrorKind::Cancelled, tr("A newer value took its place")));
-    slot = Waiting{raw, std::move(done)};
+    slot = Waiting{raw, insisting, std::move(done)};
     device.setPending(fieldIndex, raw);
 }
 
@@ -94,7 +111,7 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     const std::vector<const Field *> affected = affectedNow(device, field);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
                         spansOf(device, among(affected)),
-                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {}};
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {}, laterBytes(field, raw)};
     // Torque off waits for no Read, and of a drag the old value is known.
     const bool isTorqueOff = &field == device.table().find(Known::TorqueEnable) && raw == 0;
     const bool isDrag = m_journal && m_journal->continues(journalDevice(device), changeOf(field, raw));
@@ -189,12 +206,16 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw,
             || values.error().kind == ErrorKind::PortLost);
     if (!device || ended) // what waited behind it must not go out after a STOP
         return refuse(nullptr, {ErrorKind::Cancelled, tr("The write before it was cancelled")}, next->done);
-    writeField(*device, fieldIndex, next->raw, std::move(next->done));
+    write(*device, fieldIndex, next->raw, next->insisting, std::move(next->done));
 }
 
 void Commands::readAll(Device &device, Done done)
 {
-    ReadSpansPlan plan{placeOf(device), spansOf(device, [](const Field &) { return true; })};
+    // Where nobody knows which bytes there are, a piece that is refused should be small.
+    constexpr int Piece = 16;
+    constexpr int Usual = 128;
+    ReadSpansPlan plan{placeOf(device),
+                       spansOf(device, [](const Field &) { return true; }, device.isKnownModel() ? Usual : Piece)};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Normal, this, [plan = std::move(plan)](JobContext &context) { return readSpans(context, plan); },
         [this, key = device.key(), from = std::pair(device.id(), device.baudRate()), done = std::move(done)](

@@ -27,6 +27,9 @@ public:
     /// Writes a raw value and reads the register back. While one write to a field is on its way the newest of those that
     /// follow waits and the others end Cancelled, so a slider may call this as often as it likes.
     void writeField(Device &device, int fieldIndex, std::int64_t raw, Done done = {});
+    /// The same for a register of which nobody knows whether it may be written, or what it does: only where a person,
+    /// told so, insists. Refused while STOP holds, for it may be a goal.
+    void writeUnknown(Device &device, int fieldIndex, std::int64_t raw, Done done = {});
     void readAll(Device &device, Done done = {});
     void setTorque(const std::vector<Device *> &devices, bool on, Done done = {});
     void setLed(Device &device, bool on, Done done = {});
@@ -56,10 +59,13 @@ private:
     using FieldKey = std::pair<DeviceKey, int>;
     struct Waiting {
         std::int64_t raw = 0;
+        bool insisting = false;
         Done done;
     };
 
-    Result<void> checkWrite(const Device &device, int fieldIndex, std::int64_t raw) const;
+    void write(Device &device, int fieldIndex, std::int64_t raw, bool insisting, Done done);
+
+    Result<void> checkWrite(const Device &device, int fieldIndex, std::int64_t raw, bool insisting) const;
     void sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done done);
     void finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw, const Result<std::vector<PollValue>> &values,
                      const Done &done);

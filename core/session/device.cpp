@@ -75,12 +75,12 @@ bool Device::goalTurnsTorqueOn() const
     return std::ranges::find(bits, Bit, &BitField::first) != bits.end() && (value(mode).raw.value_or(0) >> Bit & 1) != 0;
 }
 
-QString Device::lockReason(int fieldIndex) const
+QString Device::lockReason(int fieldIndex, bool insisting) const
 {
     const Field &field = m_table->fields()[static_cast<std::size_t>(fieldIndex)];
-    if (field.mayBeTried())
+    if (field.mayBeTried() && !insisting)
         return tr("Whether %1 may be written is not known.").arg(field.name);
-    if (!field.isWritable())
+    if (!field.isWritable() && !field.mayBeTried())
         return tr("%1 is read-only.").arg(field.name);
     const bool isGone = m_line
         && (m_line->state() == BusThread::State::Lost || m_line->state() == BusThread::State::Closed);

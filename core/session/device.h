@@ -51,6 +51,8 @@ public:
     LineSession *line() const { return m_line; }
     const Found &found() const { return m_found; }
     const ControlTable &table() const { return *m_table; } ///< of an unknown model: bare bytes
+    const ControlTablePtr &sharedTable() const { return m_table; } ///< for who may outlive the device
+    bool isFirmwareNewerThanKnown() const { return m_table->isNewerThanKnown(m_found.firmware); }
     bool isKnownModel() const { return !m_table->description().isRaw; }
     QString model() const { return m_table->model(); }
     std::uint8_t id() const { return m_found.id; }
@@ -73,9 +75,9 @@ public:
     bool mayHaveTorqueOn() const; ///< it is on, or was turned on or off and nobody could read what came of it
     bool isTorqueOn() const { return raw(Known::TorqueEnable).value_or(0) == 1; }
     bool goalTurnsTorqueOn() const; ///< by its Drive Mode, where its firmware knows that
-    /// Why the field can't be written now, in a sentence; empty where it can. Silence is no reason: a device may be told to
-    /// be silent, by its Status Return Level, and hear nevertheless.
-    QString lockReason(int fieldIndex) const;
+    /// Why the field can't be written now, a sentence; empty where it can. Silence is no reason: a device may be told to
+    /// be silent (Status Return Level) and hear nevertheless. `insisting`: though nobody knows (Field::mayBeTried).
+    QString lockReason(int fieldIndex, bool insisting = false) const;
 
     void setNickname(const QString &name);
 

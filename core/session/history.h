@@ -12,8 +12,9 @@
 
 namespace dynascope {
 
-/// The raw values one field had, with a pyramid of minima and maxima so that any stretch can be drawn in as many
-/// columns as the screen has. Append-only; the oldest go when it is full. Any one thread.
+/// The raw values one field had (signed where a bit of it is the direction), with a pyramid of minima and maxima so that
+/// any stretch can be drawn in as many columns as the screen has. Append-only; the oldest go when it is full. Any one
+/// thread.
 class History
 {
 public:

@@ -2,10 +2,24 @@
 #include "core/session/monitor.h"
 
 #include "core/session/watchplan.h"
+#include "core/table/units.h"
 
 #include <algorithm>
 
 namespace dynascope {
+namespace {
+
+/// What the history keeps: where a bit is the direction, a signed number, so that minimum, maximum and the line between
+/// two samples mean something.
+std::int64_t countedBy(const Device &device, int index, std::int64_t raw)
+{
+    const Field &field = device.table().fields()[static_cast<std::size_t>(index)];
+    const bool mayHaveDirection = field.directionBit >= 0
+        || std::ranges::any_of(field.alternates, [](const Alternate &other) { return other.directionBit >= 0; });
+    return mayHaveDirection ? signedFromRaw(device.effective(index), raw) : raw;
+}
+
+} // namespace
 
 Monitor::Monitor(Session &session, QObject *parent)
     : QObject(parent)
@@ -77,6 +91,12 @@ void Monitor::select(const std::vector<Device *> &devices)
     replanSoon();
 }
 
+void Monitor::setUnfolded(const std::set<int> &fields)
+{
+    m_unfolded = fields;
+    replanSoon();
+}
+
 const History *Monitor::history(const Watch &watch) const
 {
     const auto at = m_histories.find(watch);
@@ -109,7 +129,8 @@ void Monitor::replan()
         for (const auto &device : line->devices()) {
             if (m_paused)
                 break;
-            DeviceWatches watches{device.get(), {}, std::ranges::find(m_selected, device->key()) != m_selected.end()};
+            const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
+            DeviceWatches watches{device.get(), {}, isSelected, isSelected ? m_unfolded : std::set<int>()};
             for (auto at = m_watches.lower_bound({device->key(), 0});
                  at != m_watches.end() && at->device == device->key(); ++at) {
                 watches.fields.push_back(at->field);
@@ -145,7 +166,7 @@ void Monitor::record(const Batch &batch)
             } else if (field.address >= value.address && field.end() <= end) {
                 const auto offset = static_cast<std::size_t>(field.address - value.address);
                 const std::int64_t raw = rawFromBytes(field, ByteView(value.data).subspan(offset));
-                m_histories[*at].append(value.at, static_cast<std::int32_t>(raw));
+                m_histories[*at].append(value.at, static_cast<std::int32_t>(countedBy(*device, at->field, raw)));
             }
         }
     }

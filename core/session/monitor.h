@@ -33,6 +33,8 @@ public:
     bool isWatched(const Watch &watch) const { return m_watches.contains(watch); }
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
+    /// Fields of long runs (indirect.h) that the grid shows of them; the others aren't polled.
+    void setUnfolded(const std::set<int> &fields);
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
@@ -57,6 +59,7 @@ private:
     std::set<Watch> m_watches;
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
+    std::set<int> m_unfolded;
     bool m_paused = false;
     QTimer m_replanTimer;
     struct SentPlan {

@@ -2,6 +2,7 @@
 #include "core/session/watchplan.h"
 
 #include "core/session/commands.h"
+#include "core/table/indirect.h"
 
 #include <algorithm>
 
@@ -13,9 +14,17 @@ using namespace std::chrono_literals;
 constexpr auto SelectedInterval = 100ms;
 constexpr auto StateInterval = 1000ms;
 
-bool isIndirect(const Field &field)
+/// Those in long runs that nobody looks at.
+std::set<int> foldedFields(const DeviceWatches &watches)
 {
-    return field.name.startsWith(QLatin1String("Indirect "));
+    std::set<int> folded;
+    for (const FieldRun &run : longRuns(watches.device->table())) {
+        for (int field = run.first; field <= run.last; ++field) {
+            if (!watches.unfolded.contains(field))
+                folded.insert(field);
+        }
+    }
+    return folded;
 }
 
 bool isState(const Field &field)
@@ -62,8 +71,10 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
             return std::ranges::find(watches.fields, static_cast<int>(&field - first)) != watches.fields.end();
         });
         if (watches.isSelected) {
-            addSpans(plan, device, SelectedInterval,
-                     [](const Field &field) { return isLive(field) && !isIndirect(field); });
+            const std::set<int> folded = foldedFields(watches);
+            addSpans(plan, device, SelectedInterval, [&](const Field &field) {
+                return isLive(field) && !folded.contains(static_cast<int>(&field - first));
+            });
         }
         addSpans(plan, device, StateInterval, [&](const Field &field) {
             const bool isRead = watches.isSelected && isLive(field);

@@ -3,6 +3,8 @@
 
 #include "core/session/device.h"
 
+#include <set>
+
 namespace dynascope {
 
 /// What one device is polled for.
@@ -10,13 +12,14 @@ struct DeviceWatches {
     const Device *device = nullptr;
     std::vector<int> fields;  ///< at full rate, indices of its table
     bool isSelected = false;  ///< its RAM is on screen: 10 Hz
+    std::set<int> unfolded = {}; ///< fields of long runs (indirect.h) that are on screen, too
 };
 
 /// The spans to poll. Pure. Neighbouring fields are joined, gaps read through where that costs less than asking again;
 /// besides what is watched and selected, every device's state (torque, hardware error, voltage, temperature) at 1 Hz, and
 /// Return Delay Time and Status Return Level until they are known.
 /// Devices that are rebooting or at another rate than `baudRate`, the line's, are left out; of these the bus learns how
-/// they answer.
+/// they answer. Long runs of like registers (indirect blocks, histories) are polled only where they are unfolded.
 PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate);
 
 } // namespace dynascope

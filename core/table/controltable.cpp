@@ -189,6 +189,8 @@ EffectiveField effective(const Field &field, const RegisterLookup &lookup)
         result.directionBit = alternate.directionBit;
         break;
     }
+    result.minimumFrom = minimum->reg;
+    result.maximumFrom = maximum->reg;
     result.minimum = resolved(*minimum, lookup);
     result.maximum = resolved(*maximum, lookup);
     return result;

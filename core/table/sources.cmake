@@ -5,6 +5,7 @@ target_sources(dynascope_core PRIVATE
     table/field.h
     table/fieldchanges.cpp table/fieldchanges.h
     table/fieldreader.cpp table/fieldreader.h table/fieldreader_values.cpp
+    table/indirect.cpp table/indirect.h
     table/jsonguard.cpp table/jsonguard.h
     table/jsonscanner.cpp table/jsonscanner.h
     table/parsevalue.cpp

@@ -146,7 +146,7 @@ Physical physical(const EffectiveField &field, int resolution, std::int64_t raw,
         const std::int64_t direction = directionMask(field);
         value = static_cast<double>(raw & ~direction);
         if ((raw & direction) != 0)
-            value = -value;
+            value = -value; // −0, too
     }
     return {value * one, unitSymbol(field, units), decimalsFor(one)};
 }
@@ -175,6 +175,32 @@ std::pair<Physical, Physical> physicalRange(
         return {physical(field, resolution, low, units), physical(field, resolution, high, units)};
     const std::int64_t most = directionMask(field) - 1;
     return {physical(field, resolution, most | directionMask(field), units), physical(field, resolution, most, units)};
+}
+
+std::int64_t signedFromRaw(const EffectiveField &field, std::int64_t raw)
+{
+    if (field.directionBit < 0)
+        return raw;
+    const std::int64_t magnitude = raw & ~directionMask(field);
+    return (raw & directionMask(field)) != 0 ? -magnitude : magnitude;
+}
+
+std::int64_t rawFromSigned(const EffectiveField &field, std::int64_t value)
+{
+    if (field.directionBit < 0)
+        return value;
+    const std::int64_t magnitude = std::min(std::abs(value), directionMask(field) - 1);
+    return value < 0 ? magnitude | directionMask(field) : magnitude;
+}
+
+std::pair<std::int64_t, std::int64_t> signedRange(const Field &field, const EffectiveField &effective)
+{
+    const std::int64_t low = std::max(effective.minimum.value_or(smallestRaw(field)), smallestRaw(field));
+    const std::int64_t high = std::min(effective.maximum.value_or(largestRaw(field)), largestRaw(field));
+    if (effective.directionBit < 0 || high < directionMask(effective))
+        return {low, std::max(low, high)};
+    const std::int64_t most = directionMask(effective) - 1;
+    return {-most, most};
 }
 
 QString unitSymbol(const EffectiveField &field, const UnitPreferences &units)

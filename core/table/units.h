@@ -37,6 +37,11 @@ std::int64_t rawFromPhysical(
 /// the direction.
 std::pair<Physical, Physical> physicalRange(const EffectiveField &field, int resolution, std::int64_t low,
                                             std::int64_t high, const UnitPreferences &units = {});
+/// A raw value as what it counts: negative where a bit says so (EffectiveField::directionBit), else `raw` itself.
+std::int64_t signedFromRaw(const EffectiveField &field, std::int64_t raw);
+std::int64_t rawFromSigned(const EffectiveField &field, std::int64_t value); ///< the nearest there is
+/// What may be written, counted so; the smallest first.
+std::pair<std::int64_t, std::int64_t> signedRange(const Field &field, const EffectiveField &effective);
 QString unitSymbol(const EffectiveField &field, const UnitPreferences &units = {}); ///< for people, as physical() says
 QString unitSymbol(Unit unit, AngleUnit angle = AngleUnit::Degrees); ///< for people: "°", "rev/min²"
 QString unitId(Unit unit);                                          ///< for programs: "deg", "rev/min2"

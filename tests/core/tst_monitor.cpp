@@ -72,17 +72,38 @@ private slots:
         QVERIFY(!monitor.history(shown));
     }
 
+    void aDirectionBitIsASign()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XL-320@1000000:1"));
+        Monitor monitor(all.session);
+        monitor.setPaused(true);
+        all.open(1000000);
+        Device &device = *all.line->devices().front();
+        const ControlTable &table = device.table();
+        const Watch speed{device.key(), table.indexOf(u"Present Speed")};
+        const Watch drive{device.key(), table.indexOf(u"Moving Speed")};
+        monitor.watch(speed);
+        monitor.watch(drive);
+        poll(*all.line, device, speed.field, 1024 + 7);
+        QCOMPARE(monitor.history(speed)->last().raw, -7);
+        poll(*all.line, device, drive.field, 1024 + 7); // the mode isn't known yet
+        QCOMPARE(monitor.history(drive)->last().raw, 1031);
+        device.takeReadBack(table.indexOf(u"Control Mode"), 1);
+        poll(*all.line, device, drive.field, 1024 + 7, 2);
+        QCOMPARE(monitor.history(drive)->last().raw, -7);
+    }
+
 private:
-    /// As if a poll had brought 7.
-    static void poll(LineSession &line, const Device &device, int fieldIndex)
+    /// As if a poll had brought it.
+    static void poll(LineSession &line, const Device &device, int fieldIndex, std::int64_t raw = 7, int at = 1)
     {
         const Field &field = device.table().fields()[static_cast<std::size_t>(fieldIndex)];
         PollValue value;
         value.device = device.key();
         value.address = field.address;
         value.length = field.size;
-        value.data = bytesFromRaw(field, 7);
-        value.at = std::chrono::milliseconds(1);
+        value.data = bytesFromRaw(field, raw);
+        value.at = std::chrono::milliseconds(at);
         Batch batch;
         batch.values.push_back(value);
         emit line.batchTaken(batch);

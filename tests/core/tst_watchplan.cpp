@@ -70,6 +70,19 @@ private slots:
         QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms"), QStringLiteral("#2 9+1 every 1000 ms")}));
     }
 
+    void longRunsArePolledOnlyWhereTheyAreUnfolded()
+    {
+        const Device device(2, nullptr, m_table, {2, 57600, 1020, 45, false, {}});
+        const int data = m_table->indexOf(u"Indirect Data 1");
+        QCOMPARE(m_table->at(224), &m_table->fields()[std::size_t(data)]);
+        const QStringList plan = asText(planWatches({{&device, {}, true, {data, data + 1}}}, 57600));
+        QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms"), QStringLiteral("#2 224+2 every 100 ms"),
+                                    QStringLiteral("#2 9+1 every 1000 ms")}));
+        // Of a device that isn't on screen there is nothing unfolded.
+        QVERIFY(!asText(planWatches({{&device, {}, false, {data}}}, 57600)).contains(
+            QStringLiteral("#2 224+1 every 100 ms")));
+    }
+
     void aParkedDeviceIsLeftAlone()
     {
         Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});

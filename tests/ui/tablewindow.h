@@ -10,8 +10,9 @@ namespace dynascope {
 
 /// A panel on screen with what a test reaches for.
 struct TableWindow {
-    explicit TableWindow(TableFixture &fixture)
-        : panel(fixture.actions())
+    explicit TableWindow(TableFixture &fixture) : TableWindow(fixture.actions()) { }
+    explicit TableWindow(const TableActions &actions)
+        : panel(actions)
         , view(panel.findChild<TableView *>(QStringLiteral("tableView")))
     {
         panel.resize(900, 900);

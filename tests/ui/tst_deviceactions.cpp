@@ -87,6 +87,35 @@ private slots:
             QTRY_COMPARE(device->state(), Device::State::Rebooting);
     }
 
+    void hybridRegistersAreSaved()
+    {
+        QVERIFY(!m_actions->findChild<QAction *>(QStringLiteral("saveHybridAction"))->isVisible()); // no X has any
+        m_window.reset();
+        m_bench = std::make_unique<test::WorkbenchFixture>(QStringLiteral("YM070-210-M001-RH@1000000:1"));
+        m_line = &m_bench->session.open(QStringLiteral("sim"), 1000000);
+        Device &device = m_line->heard({1, 1000000, 4000, 11, false, {}});
+        m_window = std::make_unique<QWidget>();
+        m_actions = new DeviceActions(m_bench->workbench(), m_window.get());
+        QStringList said;
+        connect(m_actions, &DeviceActions::posted, this, [&](const Message &message) { said << message.text; });
+        QTRY_COMPARE(m_line->state(), BusThread::State::Open);
+        select({&device});
+        trigger("torqueOnAction");
+        QTRY_VERIFY(device.isTorqueOn());
+        trigger("saveHybridAction");
+        QVERIFY(said.size() == 1 && said.front().contains(QStringLiteral("only with torque off")));
+        trigger("torqueOffAction");
+        QTRY_VERIFY(!device.isTorqueOn());
+        QSignalSpy failed(&m_bench->commands, &Commands::failed);
+        trigger("saveHybridAction");
+        QTRY_VERIFY(said.size() == 2 || !failed.isEmpty());
+        if (!failed.isEmpty())
+            QFAIL(qPrintable(failed.front().at(1).value<Error>().text));
+        QCOMPARE(said.size(), 2);
+        QVERIFY2(said.back().contains(QStringLiteral("has saved")), qPrintable(said.back()));
+        QCOMPARE(device.raw(u"Hybrid Save"), std::optional<std::int64_t>(2));
+    }
+
 private:
     void select(const std::vector<Device *> &devices) { m_actions->setSelection(devices, m_line, 1000000); }
     void trigger(const char *name) const

@@ -80,8 +80,6 @@ private slots:
 
         Device *unknown = fixture.add(9, 4711);
         panel.setDevices({unknown});
-        const auto *text = panel.findChild<QLabel *>(QStringLiteral("tableEmptyText"));
-        QVERIFY(text->height() >= text->heightForWidth(text->width())); // nothing cut off
         save(panel, QStringLiteral("table-unknown"), wanted);
     }
 

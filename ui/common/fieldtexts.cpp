@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/common/fieldtexts.h"
 
+#include "ui/common/texts.h"
+
 #include <QCoreApplication>
 
 namespace dynascope {
@@ -38,6 +40,8 @@ QString meaningsText(const Field &field)
     QStringList parts;
     for (const EnumValue &value : field.values)
         parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
+    for (const EnumValue &value : field.special)
+        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
     for (const BitField &bits : field.bits) {
         QString name = bits.count == 1 ? FieldTexts::tr("bit %1").arg(bits.first)
                                        : FieldTexts::tr("bits %1–%2").arg(bits.first).arg(bits.first + bits.count - 1);
@@ -61,15 +65,16 @@ QString withUnits(const Field &field, const EffectiveField &effective, int resol
     const bool single = *from == *to;
     const auto raw = [](std::int64_t value) { return QString::number(value).replace(u'-', QChar(0x2212)); };
     QString text = single ? raw(*from) : raw(*from) + QStringLiteral(" … ") + raw(*to);
-    if (effective.unit != Unit::None || (single && !meaning(field, *from).isEmpty())) {
-        const auto said = [&](std::int64_t value) {
-            const QString words = valueText(field, effective, resolution, value, units);
-            return meaning(field, value).isEmpty() ? QString(words).replace(u'-', QChar(0x2212)) : words;
-        };
-        const QString low = said(*from), high = said(*to);
-        text += single ? QStringLiteral(" (%1)").arg(low) : QStringLiteral(" (%1 … %2)").arg(low, high);
-    }
-    return text;
+    if (single && !meaning(field, *from).isEmpty())
+        return text + QStringLiteral(" (%1)").arg(meaning(field, *from));
+    if (effective.unit == Unit::None || units.raw)
+        return text;
+    const auto [low, high] = physicalRange(effective, resolution, *from, *to, units);
+    const auto said = [](const Physical &value) {
+        return withMinus(QString::number(value.value, 'f', value.decimals)) + u' ' + value.unit;
+    };
+    return text + (single ? QStringLiteral(" (%1)").arg(said(low))
+                          : QStringLiteral(" (%1 … %2)").arg(said(low), said(high)));
 }
 
 QString accessText(const Field &field)

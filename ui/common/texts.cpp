@@ -113,7 +113,7 @@ QString deviceStateText(const Device &device)
     if (!device.doubt().isEmpty())
         return device.doubt();
     if (!device.isKnownModel())
-        return Texts::tr("Model %1 is unknown").arg(device.modelNumber());
+        return Texts::tr("Model %1, bare bytes").arg(device.modelNumber());
     const int enable = device.table().indexOf(Known::TorqueEnable);
     if (enable >= 0 && device.value(enable).unconfirmed) {
         return *device.value(enable).unconfirmed != 0 ? Texts::tr("Torque on sent, not confirmed")

@@ -72,6 +72,9 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
                        tr("Move the line to this baud rate; devices at others are parked"), &DeviceActions::workAtBaud);
     m_clearMultiTurn = add(key("clearMultiTurn"), key("turns"), tr("Clear multi-turn"), QString(),
                            tr("Present Position goes back into one turn"), &DeviceActions::clearMultiTurn);
+    m_saveHybrid = add(key("saveHybrid"), key("save"), tr("Save Hybrid registers"), QString(),
+                       tr("Hybrid Save: gains, profiles and the like stay after power-off; torque must be off"),
+                       &DeviceActions::saveHybrid);
     m_factoryReset = add(key("factoryReset"), key("factory-reset"), tr("Factory reset…"), QString(),
                          tr("Put registers back to the factory's values"), &DeviceActions::factoryReset);
     m_forget = add(key("forget"), key("trash"), tr("Remove from the list"), key("Del"),
@@ -98,8 +101,8 @@ QAction *DeviceActions::add(const QString &name, const QString &iconName, const 
 
 std::vector<QAction *> DeviceActions::menuActions() const
 {
-    return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,       nullptr, m_rename,
-            m_changeId, m_changeBaud, m_workAtBaud, nullptr, m_clearMultiTurn, m_factoryReset, m_forget};
+    return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,     nullptr,        m_rename,
+            m_changeId, m_changeBaud, m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
 }
 
 void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate)
@@ -144,7 +147,6 @@ void DeviceActions::update()
 {
     const std::vector<Device *> devices = reachable();
     const bool any = !devices.empty();
-    const bool known = std::ranges::any_of(devices, &Device::isKnownModel);
     const auto has = [&devices](const char *name) {
         return std::ranges::any_of(devices,
             [name](const Device *device) { return device->table().find(QString::fromLatin1(name)) != nullptr; });
@@ -155,7 +157,7 @@ void DeviceActions::update()
     m_identify->setEnabled(has("LED"));
     m_torqueOn->setEnabled(has("Torque Enable")); // also while STOP holds: the refusal says what to do
     m_torqueOff->setEnabled(has("Torque Enable"));
-    m_readAll->setEnabled(known);
+    m_readAll->setEnabled(any);
     m_reboot->setEnabled(any);
     m_rename->setEnabled(this->devices().size() == 1);
     m_changeId->setEnabled(one && one->table().find(u"ID"));
@@ -165,6 +167,8 @@ void DeviceActions::update()
     m_workAtBaud->setText(
         m_workAtBaud->isEnabled() ? tr("Work at %1").arg(baudText(m_baudRate)) : tr("Work at this baud"));
     m_clearMultiTurn->setEnabled(any);
+    m_saveHybrid->setVisible(has("Hybrid Save")); // of one series only; before it is enabled: Qt enables nothing hidden
+    m_saveHybrid->setEnabled(m_saveHybrid->isVisible());
     m_factoryReset->setEnabled(one && one->isKnownModel());
     m_forget->setEnabled(!this->devices().empty());
 }
@@ -326,6 +330,33 @@ void DeviceActions::clearMultiTurn()
 {
     for (Device *device : reachable())
         m_workbench.commands.clearMultiTurn(*device);
+}
+
+void DeviceActions::saveHybrid()
+{
+    static constexpr int Save = 1;
+    static constexpr int Saved = 2;
+    for (Device *device : reachable()) {
+        const int field = device->table().indexOf(u"Hybrid Save");
+        if (field < 0)
+            continue;
+        if (device->isTorqueOn()) {
+            emit posted({MessageKind::Warning,
+                         tr("%1 saves its Hybrid registers only with torque off").arg(device->displayName()), {}, {}});
+            continue;
+        }
+        const auto say = [this, here = QPointer<DeviceActions>(this), device = QPointer<Device>(device),
+                          field](const Result<void> &result) {
+            if (!here || !device || !result) // a failure is told by who wrote
+                return;
+            const bool isSaved = device->value(field).raw == Saved;
+            emit posted({isSaved ? MessageKind::Success : MessageKind::Info,
+                         isSaved ? tr("%1 has saved its Hybrid registers").arg(device->displayName())
+                                 : tr("%1 is saving its Hybrid registers: Hybrid Save reads 2 when it is done")
+                                       .arg(device->displayName()), {}, {}});
+        };
+        m_workbench.commands.writeField(*device, field, Save, say);
+    }
 }
 
 void DeviceActions::factoryReset()

@@ -60,6 +60,7 @@ private:
     void changeBaud();
     void workAtBaud();
     void clearMultiTurn();
+    void saveHybrid();
     void factoryReset();
     void forget();
 
@@ -70,7 +71,7 @@ private:
     QPointer<LineSession> m_line;
     int m_baudRate = 0;
     QAction *m_identify, *m_torqueOn, *m_torqueOff, *m_readAll, *m_reboot, *m_rename, *m_changeId, *m_changeBaud,
-        *m_workAtBaud, *m_clearMultiTurn, *m_factoryReset, *m_forget;
+        *m_workAtBaud, *m_clearMultiTurn, *m_saveHybrid, *m_factoryReset, *m_forget;
 };
 
 } // namespace dynascope

@@ -67,6 +67,12 @@ QVariant DeviceTreeModel::deviceData(const Device &device, int role) const
         QStringList lines{
             tr("%1, ID %2 at %3").arg(device.displayName()).arg(device.id()).arg(baudText(device.baudRate()))};
         lines << tr("%1, firmware %2").arg(device.model()).arg(device.firmware());
+        if (device.isFirmwareNewerThanKnown()) {
+            lines << tr("Newer than this program knows: the table of firmware %1 is shown")
+                         .arg(device.table().description().newestFirmware);
+        }
+        if (const QString doubt = device.table().description().doubt; !doubt.isEmpty())
+            lines << doubt;
         const QString help = deviceStateHelp(device);
         lines << (help.isEmpty() ? deviceStateText(device) : help);
         if (device.alert())

@@ -91,6 +91,7 @@ PlotPanel *PlotArea::addPanel()
     m_panels.push_back(panel);
     m_present = panel;
     panel->chart().setAutoscale(m_panels.front()->chart().isAutoscale());
+    panel->model().setUnits(m_units);
     connect(panel, &PlotPanel::activated, this, [this, panel] { m_present = panel; });
     connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
     connect(panel, &PlotPanel::removeRequested, this,
@@ -271,6 +272,17 @@ void PlotArea::setAutoscale(bool on)
     m_bar->setAutoscale(on);
     for (PlotPanel *panel : m_panels)
         panel->chart().setAutoscale(on);
+}
+
+void PlotArea::setUnits(const UnitPreferences &units)
+{
+    if (units == m_units)
+        return;
+    m_units = units;
+    for (PlotPanel *panel : m_panels)
+        panel->model().setUnits(units);
+    setAutoscale(true); // ranges by hand were of the other units
+    refreshAll();
 }
 
 void PlotArea::fit()

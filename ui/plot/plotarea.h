@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/monitor.h"
+#include "core/table/units.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
 #include "ui/plot/plotstate.h"
@@ -40,6 +41,7 @@ public:
     const TimeWindow &timeWindow() const { return m_window; }
     void setLive(bool live);
     void setAutoscale(bool on);
+    void setUnits(const UnitPreferences &units); ///< axes, readouts, lists, and what is saved
 
     std::vector<QAction *> saveActions() const; ///< CSV and picture, for a menu
 
@@ -72,6 +74,7 @@ private:
     Session &m_session;
     Monitor &m_monitor;
     TimeWindow m_window;
+    UnitPreferences m_units;
     PlotBar *m_bar;
     QSplitter *m_splitter;
     PlotSaver *m_saver;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/tracemodel.h"
 
-#include "core/table/units.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
 
@@ -44,15 +43,35 @@ void TraceModel::describe(Trace &trace) const
     const Device *device = m_session.device(trace.watch.device);
     if (!device || trace.gone)
         return;
-    const EffectiveField effective = device->effective(trace.watch.field);
-    const int resolution = device->table().resolution();
-    const Physical zero = physical(effective, resolution, 0);
+    trace.effective = device->effective(trace.watch.field);
+    trace.resolution = device->table().resolution();
     trace.device = device->displayName();
     trace.field = device->table().fields()[static_cast<std::size_t>(trace.watch.field)].name;
+    measure(trace);
+}
+
+/// In the chosen units. Linear, for histories keep signed numbers.
+void TraceModel::measure(Trace &trace) const
+{
+    const Physical zero = physical(trace.effective, trace.resolution, 0, m_units);
     trace.offset = zero.value;
-    trace.scale = physical(effective, resolution, 1).value - zero.value;
+    trace.scale = physical(trace.effective, trace.resolution, 1, m_units).value - zero.value;
     trace.decimals = zero.decimals;
     trace.unit = zero.unit;
+}
+
+void TraceModel::setUnits(const UnitPreferences &units)
+{
+    if (units == m_units)
+        return;
+    m_units = units;
+    for (Trace &trace : m_traces) {
+        describe(trace);
+        measure(trace);
+    }
+    if (rowCount() > 0)
+        emit dataChanged(index(0), index(rowCount() - 1));
+    refreshValues();
 }
 
 bool TraceModel::isSilent(const Trace &trace) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/monitor.h"
+#include "core/table/units.h"
 #include "ui/plot/tracedata.h"
 
 #include <QAbstractListModel>
@@ -37,6 +38,8 @@ public:
     int colorIndex(int row) const { return m_traces[static_cast<std::size_t>(row)].color; }
     void setColorIndex(int row, int color);
 
+    void setUnits(const UnitPreferences &units);
+
     /// For drawing, in the order of rows.
     std::vector<TraceData> drawn(const QPalette &palette) const;
     /// Looks at the newest values, and announces those whose text changed.
@@ -55,6 +58,8 @@ private:
         QString device;
         QString field;
         bool gone = false;
+        EffectiveField effective; ///< as it was last known: its device may be gone
+        int resolution = 4096;
         double scale = 1;
         double offset = 0;
         int decimals = 0;
@@ -63,6 +68,7 @@ private:
     };
 
     void describe(Trace &trace) const;
+    void measure(Trace &trace) const;
     bool isSilent(const Trace &trace) const;
     void updateDevice(Device *device);
     void onDeviceGone(Device *device);
@@ -72,6 +78,7 @@ private:
 
     Session &m_session;
     const Monitor &m_monitor;
+    UnitPreferences m_units;
     std::vector<Trace> m_traces;
 };
 

@@ -8,6 +8,8 @@
 #include <QStyle>
 #include <QWidget>
 
+#include <algorithm>
+
 namespace dynascope {
 namespace {
 
@@ -55,7 +57,9 @@ void paintMark(QPainter *painter, QRect &rect, const QModelIndex &index, const I
 
 int unitLaneWidth(const QFont &font)
 {
-    return QFontMetrics(font).horizontalAdvance(QStringLiteral("rev/min²"));
+    const QFontMetrics metrics(font);
+    return std::max(metrics.horizontalAdvance(QStringLiteral("rev/min²")),
+                    metrics.horizontalAdvance(QStringLiteral("pulse/ms")));
 }
 
 void paintCell(QPainter *painter, const QStyleOptionViewItem &option)

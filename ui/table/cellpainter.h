@@ -10,6 +10,7 @@ class QPainter;
 namespace dynascope {
 
 inline constexpr int CellMargin = 8; ///< left and right of what a cell says
+inline constexpr int DoubtMark = 14; ///< how large the mark of a doubtful register is
 
 /// How wide the lane is in which units stand, so that the numbers left of it line up whatever their unit.
 int unitLaneWidth(const QFont &font);

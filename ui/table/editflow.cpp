@@ -36,7 +36,7 @@ std::vector<Device *> EditFlow::targets(const QModelIndex &cell) const
 bool EditFlow::gate(const QModelIndex &cell)
 {
     const Field *field = fieldAt(cell);
-    if (!field || !field->isWritable())
+    if (!field || !isEditable(*field))
         return false;
     if (isProcedureField(*field)) {
         Device *device = m_model.devices()[static_cast<std::size_t>(m_model.columnAt(cell.column()).device)];

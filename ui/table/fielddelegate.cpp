@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fielddelegate.h"
 
+#include "core/table/indirect.h"
+#include "ui/common/icons.h"
 #include "ui/common/theme.h"
 #include "ui/table/cellpainter.h"
 #include "ui/table/enumedit.h"
@@ -21,6 +23,14 @@ std::optional<std::int64_t> rawAt(const QModelIndex &index)
     return raw.isValid() ? std::optional<std::int64_t>(raw.toLongLong()) : std::nullopt;
 }
 
+/// Writes `text` at the left of `rect` and takes its width away from it.
+void takeLeft(QPainter *painter, QRect &rect, const QString &text)
+{
+    const QString shown = painter->fontMetrics().elidedText(text, Qt::ElideMiddle, rect.width());
+    painter->drawText(rect, Qt::AlignLeft | Qt::AlignVCenter | Qt::TextSingleLine, shown);
+    rect.setLeft(rect.left() + painter->fontMetrics().horizontalAdvance(shown) + CellMargin);
+}
+
 } // namespace
 
 FieldDelegate::FieldDelegate(QObject *parent)
@@ -33,8 +43,7 @@ void FieldDelegate::paint(QPainter *painter, const QStyleOptionViewItem &given, 
     QStyleOptionViewItem option = given;
     initStyleOption(&option, index);
     if (!fieldAt(index)) {
-        option.font.setBold(true);
-        paintText(painter, option, index);
+        paintGroup(painter, option, index);
         return;
     }
     paintCell(painter, option);
@@ -43,20 +52,56 @@ void FieldDelegate::paint(QPainter *painter, const QStyleOptionViewItem &given, 
         paintPlotTick(painter, option, static_cast<Qt::CheckState>(index.data(Qt::CheckStateRole).toInt()));
     else if (isValueKind(kind))
         paintValue(painter, option, index);
+    else if (kind == ColumnKind::Name)
+        paintName(painter, option, index);
     else
         paintText(painter, option, index);
+}
+
+void FieldDelegate::paintGroup(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
+{
+    QRect rect = option.rect.adjusted(CellMargin, 0, -CellMargin, 0);
+    QFont bold = option.font;
+    bold.setBold(true);
+    painter->save();
+    painter->setFont(bold);
+    painter->setPen(colors(option.palette).dimmed);
+    takeLeft(painter, rect, index.data().toString());
+    painter->setFont(option.font);
+    takeLeft(painter, rect, index.data(GroupHintRole).toString());
+    painter->restore();
+}
+
+/// The name, a guess beside it, and at the right end a mark where something is doubtful.
+void FieldDelegate::paintName(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
+{
+    const Field &field = *fieldAt(index);
+    const ThemeColors &theme = colors(option.palette);
+    QRect rect = option.rect.adjusted(2, 0, -CellMargin, 0);
+    painter->save();
+    if (!field.doubt.isEmpty()) {
+        const QRect mark(rect.right() + 1 - DoubtMark, rect.center().y() - DoubtMark / 2, DoubtMark, DoubtMark);
+        paintIcon(painter, mark, QStringLiteral("help"), theme.warning);
+        rect.setRight(mark.left() - 4);
+    }
+    painter->setFont(option.font);
+    painter->setPen(option.palette.color(QPalette::Active, QPalette::Text));
+    takeLeft(painter, rect, field.name);
+    if (!field.suggested.isEmpty()) {
+        painter->setPen(theme.dimmed);
+        takeLeft(painter, rect, tr("%1?").arg(field.suggested));
+    }
+    painter->restore();
 }
 
 void FieldDelegate::paintText(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
 {
     const ColumnKind kind = kindAt(index);
     const bool digits = kind == ColumnKind::Address || kind == ColumnKind::Default || kind == ColumnKind::Range;
-    const QColor color = kind == ColumnKind::Name ? option.palette.color(QPalette::Active, QPalette::Text)
-                                                  : colors(option.palette).dimmed;
-    const QRect rect = option.rect.adjusted(kind == ColumnKind::Name ? 2 : CellMargin, 0, -CellMargin, 0);
+    const QRect rect = option.rect.adjusted(CellMargin, 0, -CellMargin, 0);
     painter->save();
     painter->setFont(digits ? numberFont(option.font) : option.font);
-    painter->setPen(color);
+    painter->setPen(colors(option.palette).dimmed);
     painter->drawText(rect, static_cast<int>(option.displayAlignment | Qt::AlignVCenter) | Qt::TextSingleLine,
                       painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideMiddle, rect.width()));
     painter->restore();
@@ -84,18 +129,18 @@ QWidget *FieldDelegate::createEditor(QWidget *parent, const QStyleOptionViewItem
         });
         return list;
     }
-    const bool inUnits = kindAt(index) != ColumnKind::Value && effective.unit != Unit::None;
-    const int resolution = index.data(ResolutionRole).toInt();
-    QString text;
-    if (raw)
-        text = inUnits ? valueText(*field, effective, resolution, *raw, m_angle) : QString::number(*raw);
-    return new ValueEdit({*field, effective, resolution, m_angle, inUnits}, text, raw, parent);
+    const bool inUnits = kindAt(index) != ColumnKind::Value && index.data(HasMeaningRole).toBool();
+    ValueMeaning meaning{*field, effective, index.data(ResolutionRole).toInt(), m_units, inUnits};
+    if (indirectAddressNumber(*field) > 0)
+        meaning.pointsInto = index.data(ControlTableRole).value<ControlTablePtr>();
+    return new ValueEdit(meaning, raw ? meaning.text(*raw) : QString(), raw, parent);
 }
 
-void FieldDelegate::setEditorData(QWidget * /*editor*/, const QModelIndex & /*index*/) const
+void FieldDelegate::setEditorData(QWidget *editor, const QModelIndex &index) const
 {
-    // The editor got its value when it was made. The view calls this at every change of the cell, which would take the
-    // text away from under the person's hands.
+    // The view calls this at every change of the cell.
+    if (auto *edit = qobject_cast<ValueEdit *>(editor))
+        edit->setEffective(index.data(EffectiveRole).value<EffectiveField>());
 }
 
 void FieldDelegate::setModelData(QWidget *editor, QAbstractItemModel *model, const QModelIndex &index) const

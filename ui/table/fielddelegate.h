@@ -17,11 +17,12 @@ class FieldDelegate : public QStyledItemDelegate
 public:
     explicit FieldDelegate(QObject *parent = nullptr);
 
-    void setAngleUnit(AngleUnit unit) { m_angle = unit; }
+    void setUnits(const UnitPreferences &units) { m_units = units; }
 
     void paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const override;
     QSize sizeHint(const QStyleOptionViewItem &option, const QModelIndex &index) const override;
     QWidget *createEditor(QWidget *parent, const QStyleOptionViewItem &option, const QModelIndex &index) const override;
+    /// Only what range and unit depend on goes to an open editor, never the value: the text is the person's.
     void setEditorData(QWidget *editor, const QModelIndex &index) const override;
     void setModelData(QWidget *editor, QAbstractItemModel *model, const QModelIndex &index) const override;
     void updateEditorGeometry(QWidget *editor, const QStyleOptionViewItem &option,
@@ -36,9 +37,11 @@ protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
 
 private:
+    void paintGroup(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const;
+    void paintName(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const;
     void paintText(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const;
 
-    AngleUnit m_angle = AngleUnit::Degrees;
+    UnitPreferences m_units;
 };
 
 } // namespace dynascope

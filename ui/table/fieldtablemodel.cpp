@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldtablemodel.h"
 
+#include "core/table/indirect.h"
 #include "ui/common/watchmime.h"
 
 #include <algorithm>
@@ -198,8 +199,11 @@ QVariant FieldTableModel::data(const QModelIndex &index, int role) const
     const int field = fieldOf(index);
     if (field >= 0)
         return fieldData(field, column, role);
+    const FieldGroup &group = m_groups[static_cast<std::size_t>(index.row())];
     if (role == GroupRole)
-        return m_groups[static_cast<std::size_t>(index.row())].title;
+        return group.title;
+    if (role == GroupHintRole)
+        return group.isRun ? tr("%1 registers").arg(group.fields.size()) : QString();
     return {};
 }
 
@@ -210,6 +214,7 @@ QVariant FieldTableModel::fieldData(int field, const Column &column, int role) c
     case FieldDataRole: return QVariant::fromValue(&this->field(field));
     case EffectiveRole:
         return QVariant::fromValue(m_devices[static_cast<std::size_t>(column.device)]->effective(field));
+    case ControlTableRole: return QVariant::fromValue(m_devices.front()->sharedTable());
     case ResolutionRole: return m_devices.front()->table().resolution();
     case WatchedRole: return static_cast<int>(watched(field));
     case Qt::CheckStateRole:
@@ -246,13 +251,26 @@ QVariant FieldTableModel::valueData(int field, int device, int role) const
             ? QVariant(static_cast<qlonglong>(*value.pending)) : QVariant();
     case LockRole: {
         for (const Device *target : m_editsAll ? m_devices : std::vector<Device *>{m_devices[std::size_t(device)]}) {
-            if (const QString reason = target->lockReason(field); !reason.isEmpty())
+            if (const QString reason = target->lockReason(field, true); !reason.isEmpty())
                 return reason;
         }
         return QString();
     }
+    case PointsAtRole: {
+        const std::optional<std::int64_t> address = pointsAt(field, of);
+        return address ? QVariant(static_cast<qlonglong>(*address)) : QVariant();
+    }
     default: return {};
     }
+}
+
+std::optional<std::int64_t> FieldTableModel::pointsAt(int field, const Device &device) const
+{
+    const Field &of = this->field(field);
+    if (indirectAddressNumber(of) > 0)
+        return device.value(field).raw;
+    const int address = indirectAddressOf(device.table(), of);
+    return address < 0 ? std::nullopt : device.value(address).raw;
 }
 
 bool FieldTableModel::differs(int field, int device) const
@@ -299,7 +317,7 @@ Qt::ItemFlags FieldTableModel::flags(const QModelIndex &index) const
     const ColumnKind kind = columnAt(index.column()).kind;
     if (kind == ColumnKind::Plot)
         flags |= Qt::ItemIsUserCheckable;
-    if (isValueKind(kind) && this->field(field).isWritable())
+    if (isValueKind(kind) && isEditable(this->field(field)))
         flags |= Qt::ItemIsEditable;
     return flags;
 }
@@ -320,18 +338,24 @@ bool FieldTableModel::setData(const QModelIndex &index, const QVariant &value, i
         }
         return true;
     }
-    if (role != Qt::EditRole || !isValueKind(kind) || !this->field(field).isWritable())
+    if (role != Qt::EditRole || !isValueKind(kind) || !isEditable(this->field(field)))
         return false;
     bool written = false;
+    std::vector<Device *> unknown;
     const std::int64_t raw = value.toLongLong();
     for (Device *device : targets(index.column())) {
         const FieldValue &now = device->value(field);
         const bool same = now.raw == raw && !now.pending && now.state != FieldState::Failed;
-        if (same || !device->lockReason(field).isEmpty())
+        if (same || !device->lockReason(field, true).isEmpty())
             continue;
-        m_actions.write(*device, field, raw);
+        if (this->field(field).mayBeTried())
+            unknown.push_back(device);
+        else
+            m_actions.write(*device, field, raw);
         written = true;
     }
+    if (!unknown.empty())
+        emit confirmationWanted(unknown, field, raw);
     return written;
 }
 

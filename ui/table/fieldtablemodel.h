@@ -65,12 +65,15 @@ signals:
     void plotRequested(const dynascope::Watch &watch);
     void unplotRequested(const dynascope::Watch &watch);
     void updated(); ///< once after each frame's changes
+    /// An edit of a register that only may be tried (Field::mayBeTried): nothing is written unless a person insists.
+    void confirmationWanted(const std::vector<dynascope::Device *> &devices, int field, qint64 raw);
 
 private:
     int fieldOf(const QModelIndex &index) const; ///< −1 for groups
     const Field &field(int index) const { return m_devices.front()->table().fields()[static_cast<std::size_t>(index)]; }
     QVariant fieldData(int field, const Column &column, int role) const;
     QVariant valueData(int field, int device, int role) const;
+    std::optional<std::int64_t> pointsAt(int field, const Device &device) const;
     bool differs(int field, int device) const;
     bool isChangedFromDefault(int field, int device) const;
     Qt::CheckState watched(int field) const;

@@ -1,44 +1,80 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldwordsmodel.h"
 
+#include "core/table/indirect.h"
 #include "ui/common/fieldtexts.h"
 #include "ui/common/texts.h"
 
 namespace dynascope {
+namespace {
+
+QString nameToolTip(const Field &field)
+{
+    QStringList lines{field.name};
+    if (!field.help.isEmpty())
+        lines << field.help;
+    if (!field.doubt.isEmpty())
+        lines << FieldWordsModel::tr("Doubtful: %1").arg(field.doubt);
+    return lines.join(u'\n');
+}
+
+} // namespace
 
 FieldWordsModel::FieldWordsModel(QObject *parent)
     : QIdentityProxyModel(parent)
 {
 }
 
-void FieldWordsModel::setAngleUnit(AngleUnit unit)
+void FieldWordsModel::setUnits(const UnitPreferences &units)
 {
-    if (m_angle == unit)
+    if (m_units == units)
         return;
-    beginResetModel();
-    m_angle = unit;
-    endResetModel();
+    m_units = units;
+    // What was said changes, not what there is: selection and folding stay.
+    for (int group = 0; group < rowCount(); ++group) {
+        const QModelIndex parent = index(group, 0);
+        if (const int rows = rowCount(parent); rows > 0)
+            emit dataChanged(index(0, 0, parent), index(rows - 1, columnCount() - 1, parent));
+    }
 }
 
-QString rangeText(const EffectiveField &effective)
+QString rangeText(const Field &field, const EffectiveField &effective)
 {
     if (!effective.minimum && !effective.maximum)
         return {};
-    const auto text = [](const std::optional<std::int64_t> &bound) {
-        return bound ? QString::number(*bound).replace(u'-', QChar(0x2212)) : QString();
+    if (field.size == 4 && effective.minimum == smallestRaw(field) && effective.maximum == largestRaw(field))
+        return FieldWordsModel::tr("any");
+    const auto text = [](const std::optional<std::int64_t> &bound, const QString &from) {
+        return bound ? withMinus(QString::number(*bound)) : from.isEmpty() ? QString() : QStringLiteral("?");
     };
-    return QStringLiteral("%1 … %2").arg(text(effective.minimum), text(effective.maximum));
+    return QStringLiteral("%1 … %2").arg(text(effective.minimum, effective.minimumFrom),
+                                         text(effective.maximum, effective.maximumFrom));
+}
+
+QString rangeSource(const EffectiveField &effective)
+{
+    QStringList names;
+    for (const QString &name : {effective.minimumFrom, effective.maximumFrom}) {
+        if (!name.isEmpty() && !names.contains(name))
+            names << name;
+    }
+    if (names.isEmpty())
+        return {};
+    return names.size() == 1 ? FieldWordsModel::tr("set by %1").arg(names.front())
+                             : FieldWordsModel::tr("set by %1 and %2").arg(names.front(), names.back());
 }
 
 QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
 {
     const Field *field = QIdentityProxyModel::data(index, FieldDataRole).value<const Field *>();
     if (!field) {
-        if (role == Qt::DisplayRole && index.column() == 0)
+        if ((role == Qt::DisplayRole || role == Qt::AccessibleTextRole) && index.column() == 0)
             return QIdentityProxyModel::data(index, GroupRole);
         return QIdentityProxyModel::data(index, role);
     }
     const auto kind = static_cast<ColumnKind>(QIdentityProxyModel::data(index, KindRole).toInt());
+    if (role == HasMeaningRole)
+        return hasMeaning(index, *field);
     if (role == Qt::ToolTipRole)
         return plainToolTip(toolTip(index, *field, kind));
     if (isValueKind(kind))
@@ -52,14 +88,24 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
     switch (kind) {
     case ColumnKind::Name: return field->name;
     case ColumnKind::Address: return field->address;
-    case ColumnKind::Default: return field->initial ? QVariant(static_cast<qlonglong>(*field->initial)) : QVariant();
-    case ColumnKind::Range: return rangeText(QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
+    case ColumnKind::Default:
+        return field->initial ? QVariant(withMinus(QString::number(*field->initial))) : QVariant();
+    case ColumnKind::Range:
+        return rangeText(*field, QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
     case ColumnKind::Access:
         return field->mayBeTried() ? QStringLiteral("?")
             : field->isWritable()  ? QStringLiteral("RW")
                                    : QStringLiteral("R");
     default: return {};
     }
+}
+
+bool FieldWordsModel::hasMeaning(const QModelIndex &index, const Field &field) const
+{
+    if (!field.values.empty() || !field.bits.empty() || indirectAddressNumber(field) > 0)
+        return true;
+    const auto effective = QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>();
+    return effective.unit != Unit::None && !m_units.raw;
 }
 
 QVariant FieldWordsModel::valueData(const QModelIndex &index, const Field &field, ColumnKind kind, int role) const
@@ -69,7 +115,9 @@ QVariant FieldWordsModel::valueData(const QModelIndex &index, const Field &field
     const QVariant raw = QIdentityProxyModel::data(index, role == PendingTextRole ? PendingRole : RawRole);
     if (!raw.isValid())
         return {};
-    const Words said = words(index, field, kind, raw.toLongLong());
+    Words said = words(index, field, kind, raw.toLongLong());
+    if (role == PendingTextRole && said.text.startsWith(u'→'))
+        said.text = said.text.sliced(2); // the arrow before what is being written stands there already
     switch (role) {
     case NumberRole:
         return said.number.isEmpty() ? QVariant() : QVariant(QString(said.number).replace(u'-', QChar(0x2212)));
@@ -86,15 +134,31 @@ FieldWordsModel::Words FieldWordsModel::words(const QModelIndex &index, const Fi
         return {bare, bare, {}};
     if (const QString name = meaning(field, raw); !name.isEmpty())
         return {name, {}, {}};
+    if (const QString name = indirectText(index, field, raw); !name.isEmpty())
+        return indirectDataNumber(field) > 0 && kind == ColumnKind::Device ? Words{bare, bare, {}}
+                                                                           : Words{name, {}, {}};
     if (!field.values.empty() || !field.bits.empty()) // a value the table has no name for
         return kind == ColumnKind::Device ? Words{bare, bare, {}} : Words();
     const auto effective = QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>();
-    if (effective.unit == Unit::None)
+    if (effective.unit == Unit::None || m_units.raw)
         return kind == ColumnKind::Device ? Words{bare, bare, {}} : Words();
     const Physical value
-        = physical(effective, QIdentityProxyModel::data(index, ResolutionRole).toInt(), raw, m_angle);
+        = physical(effective, QIdentityProxyModel::data(index, ResolutionRole).toInt(), raw, m_units);
     const QString number = QString::number(value.value, 'f', value.decimals);
     return {value.unit.isEmpty() ? number : number + u' ' + value.unit, number, value.unit};
+}
+
+/// What an Indirect Address points at, or an Indirect Data shows; empty for other registers.
+QString FieldWordsModel::indirectText(const QModelIndex &index, const Field &field, std::int64_t raw) const
+{
+    const bool isAddress = indirectAddressNumber(field) > 0;
+    const QVariant stands = isAddress ? QVariant(static_cast<qlonglong>(raw))
+                                      : QIdentityProxyModel::data(index, PointsAtRole);
+    const auto table = QIdentityProxyModel::data(index, ControlTableRole).value<ControlTablePtr>();
+    if (!stands.isValid() || !table)
+        return {};
+    const QString text = addressText(*table, stands.toLongLong());
+    return isAddress ? QStringLiteral("→ %1").arg(text) : tr("of %1").arg(text);
 }
 
 QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, ColumnKind kind) const
@@ -102,11 +166,16 @@ QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, C
     if (kind == ColumnKind::Plot)
         return tr("Plot %1 (Space)").arg(field.name);
     if (kind == ColumnKind::Name)
-        return field.help.isEmpty() ? field.name : QStringLiteral("%1\n%2").arg(field.name, field.help);
+        return nameToolTip(field);
     if (kind == ColumnKind::Access)
-        return accessText(field);
-    if (kind == ColumnKind::Range)
-        return rangeText(QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
+        return field.mayBeTried() ? tr("Whether it may be written isn't known: an edit asks before it is sent")
+                                  : accessText(field);
+    if (kind == ColumnKind::Range) {
+        const auto effective = QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>();
+        const QString source = rangeSource(effective);
+        const QString range = rangeText(field, effective);
+        return source.isEmpty() || range.isEmpty() ? range : QStringLiteral("%1, %2").arg(range, source);
+    }
     if (!isValueKind(kind))
         return {};
     if (const QString error = QIdentityProxyModel::data(index, ErrorRole).toString(); !error.isEmpty())

@@ -17,8 +17,7 @@ class FieldWordsModel : public QIdentityProxyModel
 public:
     explicit FieldWordsModel(QObject *parent = nullptr);
 
-    void setAngleUnit(AngleUnit unit);
-    AngleUnit angleUnit() const { return m_angle; }
+    void setUnits(const UnitPreferences &units);
 
     QVariant data(const QModelIndex &index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
@@ -32,12 +31,17 @@ private:
 
     QVariant valueData(const QModelIndex &index, const Field &field, ColumnKind kind, int role) const;
     Words words(const QModelIndex &index, const Field &field, ColumnKind kind, std::int64_t raw) const;
+    QString indirectText(const QModelIndex &index, const Field &field, std::int64_t raw) const;
+    bool hasMeaning(const QModelIndex &index, const Field &field) const;
     QString toolTip(const QModelIndex &index, const Field &field, ColumnKind kind) const;
 
-    AngleUnit m_angle = AngleUnit::Degrees;
+    UnitPreferences m_units;
 };
 
-/// "0 … 4095"; empty where anything goes that fits.
-QString rangeText(const EffectiveField &effective);
+/// "0 … 4095"; "any" where that is all that four bytes hold, empty where nothing is stated. "?" for the limit that a
+/// register says which wasn't read yet.
+QString rangeText(const Field &field, const EffectiveField &effective);
+/// "set by Min Position Limit and Max Position Limit"; empty where no register sets it.
+QString rangeSource(const EffectiveField &effective);
 
 } // namespace dynascope

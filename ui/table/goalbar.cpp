@@ -8,13 +8,28 @@
 namespace dynascope {
 namespace {
 
-/// Operating Mode, as the X, MX(2.0) and P manuals number it.
-QStringList goalNames(std::optional<std::int64_t> mode)
+/// What says which goal counts; −1 where nothing does. XL-320 has a mode of its own.
+int modeField(const ControlTable &table)
 {
-    if (!mode)
-        return {};
-    switch (*mode) {
-    case 0: return {QStringLiteral("Goal Current")};
+    const int mode = table.indexOf(Known::OperatingMode);
+    return mode >= 0 ? mode : table.indexOf(u"Control Mode");
+}
+
+/// Control Mode, as the XL-320 manual numbers it.
+QStringList goalsOfControlMode(std::int64_t mode)
+{
+    switch (mode) {
+    case 1: return {QStringLiteral("Moving Speed")};
+    case 2: return {QStringLiteral("Goal Position"), QStringLiteral("Moving Speed")};
+    default: return {};
+    }
+}
+
+/// Operating Mode, as all other manuals number it. PRO says Torque where the others say Current; each has one of them.
+QStringList goalsOfOperatingMode(std::int64_t mode)
+{
+    switch (mode) {
+    case 0: return {QStringLiteral("Goal Current"), QStringLiteral("Goal Torque")};
     case 1: return {QStringLiteral("Goal Velocity")};
     case 3:
     case 4: return {QStringLiteral("Goal Position")};
@@ -24,16 +39,26 @@ QStringList goalNames(std::optional<std::int64_t> mode)
     }
 }
 
+QStringList goalNames(const Device &device)
+{
+    const ControlTable &table = device.table();
+    const int field = modeField(table);
+    if (field < 0)
+        return {QStringLiteral("Goal Position")};
+    const std::optional<std::int64_t> mode = device.value(field).raw;
+    if (!mode)
+        return {};
+    return field == table.indexOf(Known::OperatingMode) ? goalsOfOperatingMode(*mode) : goalsOfControlMode(*mode);
+}
+
 } // namespace
 
 std::vector<int> goalFields(const Device &device)
 {
-    const bool hasModes = device.table().indexOf(u"Operating Mode") >= 0;
-    const QStringList names
-        = hasModes ? goalNames(device.raw(u"Operating Mode")) : QStringList{QStringLiteral("Goal Position")};
     std::vector<int> fields;
-    for (const QString &name : names) {
-        if (const int field = device.table().indexOf(name); field >= 0)
+    for (const QString &name : goalNames(device)) {
+        const int field = device.table().indexOf(name);
+        if (field >= 0 && device.table().fields()[static_cast<std::size_t>(field)].isWritable())
             fields.push_back(field);
     }
     return fields;
@@ -77,7 +102,7 @@ void GoalBar::setDevices(const std::vector<Device *> &devices, const QString &wh
     if (!devices.empty()) {
         // A thousand times a second for what is plotted: only the mode counts.
         connect(devices.front(), &Device::fieldsChanged, this,
-            [this, mode = devices.front()->table().indexOf(u"Operating Mode")](int first, int last) {
+            [this, mode = modeField(devices.front()->table())](int first, int last) {
                 if (mode >= first && mode <= last)
                     choose();
             });
@@ -85,10 +110,10 @@ void GoalBar::setDevices(const std::vector<Device *> &devices, const QString &wh
     choose();
 }
 
-void GoalBar::setAngleUnit(AngleUnit unit)
+void GoalBar::setUnits(const UnitPreferences &units)
 {
-    m_first->setAngleUnit(unit);
-    m_second->setAngleUnit(unit);
+    m_first->setUnits(units);
+    m_second->setUnits(units);
 }
 
 void GoalBar::choose()

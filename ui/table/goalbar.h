@@ -21,7 +21,7 @@ public:
 
     /// Follows the first, writes to all. `whom` says whose goals they are where that isn't plain.
     void setDevices(const std::vector<Device *> &devices, const QString &whom = {});
-    void setAngleUnit(AngleUnit unit);
+    void setUnits(const UnitPreferences &units);
 
 private:
     void choose();

@@ -50,9 +50,10 @@ GoalSlider::GoalSlider(Writer writer, QWidget *parent)
     }
     m_frame.setInterval(33);
     m_settle.setInterval(400);
-    connect(m_slider, &QSlider::valueChanged, this, [this](int raw) {
+    connect(m_slider, &QSlider::valueChanged, this, [this](int value) {
         if (m_showing)
             return;
+        const std::int64_t raw = rawFromSigned(m_effective, value);
         show(raw);
         m_throttle.submit(raw);
     });
@@ -60,8 +61,10 @@ GoalSlider::GoalSlider(Writer writer, QWidget *parent)
     connect(m_spin, &QDoubleSpinBox::valueChanged, this, [this](double value) {
         if (m_showing)
             return;
-        const std::int64_t raw = std::clamp<std::int64_t>(rawFromPhysical(m_effective, m_resolution, value, m_angle),
-                                                          m_slider->minimum(), m_slider->maximum());
+        const std::int64_t wanted = rawFromPhysical(m_effective, m_resolution, value, m_units);
+        const std::int64_t raw = rawFromSigned(
+            m_effective, std::clamp<std::int64_t>(signedFromRaw(m_effective, wanted), m_slider->minimum(),
+                                                  m_slider->maximum()));
         show(raw);
         m_throttle.submit(raw);
     });
@@ -98,9 +101,9 @@ void GoalSlider::setWhom(const QString &whom)
     refresh();
 }
 
-void GoalSlider::setAngleUnit(AngleUnit unit)
+void GoalSlider::setUnits(const UnitPreferences &units)
 {
-    m_angle = unit;
+    m_units = units;
     refresh();
 }
 
@@ -144,31 +147,31 @@ void GoalSlider::setUpRange(const Device &device)
     const Field &field = device.table().fields()[static_cast<std::size_t>(m_field)];
     m_effective = device.effective(m_field);
     m_resolution = device.table().resolution();
-    const int least = static_cast<int>(m_effective.minimum.value_or(smallestRaw(field)));
-    const int most = std::max(least, static_cast<int>(m_effective.maximum.value_or(largestRaw(field))));
-    const Physical one = physical(m_effective, m_resolution, 1, m_angle);
-    // A step is about one unit (1°, 1 rev/min, 1 %), never less than the register can tell apart; a page is ten.
-    const std::int64_t unit = std::max<std::int64_t>(1, rawFromPhysical(m_effective, m_resolution, 1.0, m_angle));
+    const auto [least, most] = signedRange(field, m_effective);
+    const Physical one = physical(m_effective, m_resolution, 1, m_units);
+    // A step is about 1°, 1 rev/min, 1 mA, whatever they are shown as (one turn for a key would be a blow), never less
+    // than the register can tell apart; a page is ten.
+    const std::int64_t unit = std::max<std::int64_t>(1, rawFromPhysical(m_effective, m_resolution, 1.0));
     m_showing = true;
-    m_slider->setRange(least, most);
+    m_slider->setRange(static_cast<int>(least), static_cast<int>(most));
     m_slider->setSingleStep(static_cast<int>(unit));
     m_slider->setPageStep(static_cast<int>(unit * 10));
     m_spin->setDecimals(one.decimals);
-    m_spin->setRange(toPhysical(least), toPhysical(most));
-    m_spin->setSingleStep(std::max(1.0, std::abs(one.value)));
+    m_spin->setRange(toPhysical(rawFromSigned(m_effective, least)), toPhysical(rawFromSigned(m_effective, most)));
+    m_spin->setSingleStep(std::abs(one.value) * static_cast<double>(unit));
     m_spin->setSuffix(one.unit.isEmpty() ? QString() : u' ' + one.unit);
     m_showing = false;
 }
 
 double GoalSlider::toPhysical(std::int64_t raw) const
 {
-    return physical(m_effective, m_resolution, raw, m_angle).value;
+    return physical(m_effective, m_resolution, raw, m_units).value;
 }
 
 void GoalSlider::show(std::int64_t raw)
 {
     m_showing = true;
-    m_slider->setValue(static_cast<int>(raw));
+    m_slider->setValue(static_cast<int>(signedFromRaw(m_effective, raw)));
     m_spin->setValue(toPhysical(raw));
     m_showing = false;
 }

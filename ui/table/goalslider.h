@@ -28,7 +28,8 @@ public:
     /// Follows the first, writes to all.
     void setTarget(const std::vector<Device *> &devices, int field);
     void setWhom(const QString &whom); ///< said beside the slider
-    void setAngleUnit(AngleUnit unit);
+    void setUnits(const UnitPreferences &units);
+    /// Stands at signed numbers (signedFromRaw), so that left is always less.
     QSlider *slider() const { return m_slider; }
     QDoubleSpinBox *spin() const { return m_spin; }
 
@@ -43,7 +44,7 @@ private:
     std::vector<QPointer<Device>> m_devices;
     QString m_whom;
     int m_field = -1;
-    AngleUnit m_angle = AngleUnit::Degrees;
+    UnitPreferences m_units;
     EffectiveField m_effective;
     int m_resolution = 4096;
     WriteThrottle m_throttle;

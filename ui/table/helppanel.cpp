@@ -3,6 +3,7 @@
 
 #include "ui/common/fieldtexts.h"
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
 #include "ui/table/fieldwordsmodel.h"
 
@@ -17,6 +18,18 @@ namespace {
 
 constexpr int TextHeight = 64;
 constexpr int TightHeight = 34;
+
+QString warned(const QString &text, const QPalette &palette)
+{
+    return QStringLiteral("<span style=\"color:%1\">%2</span>")
+        .arg(colors(palette).warning.name(), text.toHtmlEscaped());
+}
+
+QString asParagraphs(const QStringList &lines)
+{
+    return QStringLiteral("<p style=\"margin:0 0 4px 0\">")
+        + lines.join(QStringLiteral("</p><p style=\"margin:0 0 4px 0\">")) + QStringLiteral("</p>");
+}
 
 } // namespace
 
@@ -82,6 +95,11 @@ void HelpPanel::setTight(bool tight)
     m_area->setFixedHeight(tight ? TightHeight : TextHeight);
 }
 
+void HelpPanel::setNotes(const QStringList &notes)
+{
+    m_notes = notes;
+}
+
 void HelpPanel::showCell(const QModelIndex &cell)
 {
     const Field *field = cell.data(FieldDataRole).value<const Field *>();
@@ -89,38 +107,51 @@ void HelpPanel::showCell(const QModelIndex &cell)
         m_shown.clear();
         m_name->setText(tr("No register selected"));
         m_facts->clear();
-        m_text->setText(tr("Select a row to read what the register is for."));
+        QStringList lines{tr("Select a row to read what the register is for.")};
+        for (const QString &note : m_notes)
+            lines << warned(note, palette());
+        m_text->setText(asParagraphs(lines));
         return;
     }
-    const auto effective = cell.data(EffectiveRole).value<EffectiveField>();
-    const int resolution = cell.data(ResolutionRole).toInt();
-    QStringList lines;
-    if (!field->help.isEmpty())
-        lines << field->help.toHtmlEscaped();
-    QStringList facts;
-    if (const QString range = withUnits(*field, effective, resolution, m_angle, effective.minimum, effective.maximum);
-        !range.isEmpty() && field->isWritable() && field->values.empty())
-        facts << tr("Range %1").arg(range);
-    const auto &initial = field->initial;
-    if (initial && field->isWritable())
-        facts << tr("Default %1").arg(withUnits(*field, effective, resolution, m_angle, initial, initial));
-    if (!facts.isEmpty())
-        lines << facts.join(QStringLiteral(" &nbsp;·&nbsp; "));
-    if (const QString meanings = meaningsText(*field); !meanings.isEmpty())
-        lines << meanings;
-    if (!field->resets.isEmpty())
-        lines << tr("A write here also resets %1.").arg(field->resets.join(QStringLiteral(", ")).toHtmlEscaped());
-    if (const QString lock = cell.data(LockRole).toString(); field->isWritable() && !lock.isEmpty())
-        lines << QStringLiteral("<span style=\"color:%1\">%2</span>")
-                     .arg(colors(palette()).warning.name(), lock.toHtmlEscaped());
-    const QString text = QStringLiteral("<p style=\"margin:0 0 4px 0\">")
-        + lines.join(QStringLiteral("</p><p style=\"margin:0 0 4px 0\">")) + QStringLiteral("</p>");
+    const QString text = asParagraphs(linesFor(cell, *field));
     if (text == m_shown && m_name->text() == field->name)
         return;
     m_shown = text;
     m_name->setText(field->name);
     m_facts->setText(factsText(*field));
     m_text->setText(text);
+}
+
+/// What is said of a register, as HTML.
+QStringList HelpPanel::linesFor(const QModelIndex &cell, const Field &field) const
+{
+    const auto effective = cell.data(EffectiveRole).value<EffectiveField>();
+    const int resolution = cell.data(ResolutionRole).toInt();
+    QStringList lines;
+    if (!field.help.isEmpty())
+        lines << field.help.toHtmlEscaped();
+    if (!field.doubt.isEmpty())
+        lines << warned(tr("Doubtful: %1").arg(field.doubt), palette());
+    if (field.mayBeTried())
+        lines << warned(tr("Whether it may be written isn't known: an edit asks before it is sent."), palette());
+    QStringList facts;
+    QString range = withUnits(field, effective, resolution, m_units, effective.minimum, effective.maximum);
+    if (const QString source = rangeSource(effective); !range.isEmpty() && !source.isEmpty())
+        range += QStringLiteral(", ") + source.toHtmlEscaped();
+    if (!range.isEmpty() && field.isWritable() && field.values.empty())
+        facts << tr("Range %1").arg(range);
+    if (field.initial && field.isWritable())
+        facts << tr("Default %1").arg(
+            withUnits(field, effective, resolution, m_units, field.initial, field.initial).toHtmlEscaped());
+    if (!facts.isEmpty())
+        lines << facts.join(QStringLiteral(" &nbsp;·&nbsp; "));
+    if (const QString meanings = meaningsText(field); !meanings.isEmpty())
+        lines << meanings;
+    if (!field.resets.isEmpty())
+        lines << tr("A write here also resets %1.").arg(field.resets.join(QStringLiteral(", ")).toHtmlEscaped());
+    if (const QString lock = cell.data(LockRole).toString(); isEditable(field) && !lock.isEmpty())
+        lines << warned(lock, palette());
+    return lines;
 }
 
 } // namespace dynascope

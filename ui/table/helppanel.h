@@ -21,15 +21,19 @@ public:
     explicit HelpPanel(QWidget *parent = nullptr);
 
     void showCell(const QModelIndex &cell); ///< a value's cell; invalid: nothing
-    void setAngleUnit(AngleUnit unit) { m_angle = unit; }
+    void setUnits(const UnitPreferences &units) { m_units = units; }
+    void setNotes(const QStringList &notes); ///< on the whole table: said where no register is chosen
     bool isFolded() const { return m_folded; }
     void setFolded(bool folded);
     void setTight(bool tight); ///< where there is little height: two lines of text, the rest is scrolled to
 
 private:
-    AngleUnit m_angle = AngleUnit::Degrees;
+    QStringList linesFor(const QModelIndex &cell, const Field &field) const;
+
+    UnitPreferences m_units;
     bool m_folded = false;
     QString m_shown;
+    QStringList m_notes;
     QLabel *m_name;
     QLabel *m_facts;
     QLabel *m_text;

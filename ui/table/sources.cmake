@@ -17,10 +17,13 @@ target_sources(dynascope_ui PRIVATE
     table/tableempty.cpp table/tableempty.h
     table/tableheader.cpp table/tableheader.h
     table/tablemenu.cpp table/tablemenu.h
-    table/tablepanel.cpp table/tablepanel.h
+    table/tablepanel.cpp table/tablepanel.h table/tablepanel_groups.cpp
     table/tableroles.h
+    table/tablenote.cpp table/tablenote.h
     table/tabletools.cpp table/tabletools.h
     table/tableview.cpp table/tableview.h
+    table/unknownwrite.cpp table/unknownwrite.h
     table/valueedit.cpp table/valueedit.h
+    table/valuemeaning.cpp table/valuemeaning.h
     table/writethrottle.cpp table/writethrottle.h
 )

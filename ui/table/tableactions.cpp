@@ -19,6 +19,9 @@ TableActions tableActions(const Workbench &workbench)
     };
     actions.readAll = [&commands](Device &device) { commands.readAll(device); };
     actions.isWatched = [&monitor](const Watch &watch) { return monitor.isWatched(watch); };
+    actions.writeUnknown
+        = [&commands](Device &device, int field, std::int64_t raw) { commands.writeUnknown(device, field, raw); };
+    actions.setUnfolded = [&monitor](const std::set<int> &fields) { monitor.setUnfolded(fields); };
     return actions;
 }
 

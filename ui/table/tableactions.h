@@ -6,6 +6,7 @@
 #include "core/result.h"
 
 #include <functional>
+#include <set>
 
 namespace dynascope {
 
@@ -18,6 +19,10 @@ struct TableActions {
     std::function<void(const std::vector<Device *> &, std::function<void(Result<void>)> done)> torqueOff;
     std::function<void(Device &)> readAll;
     std::function<bool(const Watch &)> isWatched;
+    /// A register that may only be tried (Field::mayBeTried), after a person has insisted.
+    std::function<void(Device &, int field, std::int64_t raw)> writeUnknown = {};
+    /// Which fields of long runs are in sight (Monitor::setUnfolded).
+    std::function<void(const std::set<int> &fields)> setUnfolded = {};
 };
 
 TableActions tableActions(const Workbench &workbench);

@@ -15,6 +15,7 @@
 #include "ui/table/tablemenu.h"
 #include "ui/table/tabletools.h"
 #include "ui/table/tableview.h"
+#include "ui/table/unknownwrite.h"
 
 #include <QClipboard>
 #include <QDataStream>
@@ -81,6 +82,7 @@ void TablePanel::build()
     m_others->setObjectName(QStringLiteral("othersLabel"));
     m_others->setContentsMargins(12, 0, 12, 6);
     m_others->hide();
+    buildNote(grid);
     m_lockBar = new LockBar(grid);
     (new LowerEdge(*m_lockBar, *m_view->viewport()))->spare([view = m_view] {
         return view->visualRect(view->currentIndex());
@@ -92,12 +94,16 @@ void TablePanel::build()
     layout->setSpacing(0);
     layout->addWidget(m_tools);
     layout->addWidget(m_others);
+    layout->addWidget(m_note);
     layout->addWidget(m_view, 1);
     layout->addWidget(makeRule(grid));
     layout->addWidget(m_goals);
     layout->addWidget(makeRule(grid));
     layout->addWidget(m_help);
     m_empty = new TableEmpty(this);
+    m_empty->setTexts(tr("No device selected"),
+                      tr("Select a servo on the left to see its control table here: every register with its value, "
+                         "what it means, and an editor where it can be changed."));
     m_pages = new QStackedLayout(this);
     m_pages->addWidget(m_empty);
     m_pages->addWidget(grid);
@@ -111,7 +117,11 @@ void TablePanel::connectParts()
     connect(m_model, &FieldTableModel::plotRequested, this, &TablePanel::plotRequested);
     connect(m_model, &FieldTableModel::unplotRequested, this, &TablePanel::unplotRequested);
     connect(m_model, &FieldTableModel::updated, this, [this] { m_help->showCell(valueCell()); });
-    connect(m_model, &QAbstractItemModel::modelReset, this, [this] { setEmptyText(); });
+    connect(m_model, &QAbstractItemModel::modelReset, this, &TablePanel::showNote);
+    connect(m_model, &FieldTableModel::confirmationWanted, this,
+            [this](const std::vector<Device *> &devices, int field, qint64 raw) {
+                askToWriteUnknown(devices, field, raw, m_actions.writeUnknown, this);
+            });
     connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::notWritten);
     connect(m_view, &TableView::plotToggled, this, &TablePanel::togglePlot);
     connect(m_view, &QWidget::customContextMenuRequested, this, &TablePanel::showMenu);
@@ -122,6 +132,8 @@ void TablePanel::connectParts()
     };
     connect(m_view, &QTreeView::expanded, this, [keepFold](const QModelIndex &group) { keepFold(group, false); });
     connect(m_view, &QTreeView::collapsed, this, [keepFold](const QModelIndex &group) { keepFold(group, true); });
+    for (const auto signal : {&QTreeView::expanded, &QTreeView::collapsed})
+        connect(m_view, signal, this, &TablePanel::tellUnfolded);
     connect(m_filter, &QAbstractItemModel::rowsInserted, this, [this](const QModelIndex &parent) {
         if (!parent.isValid())
             updateGroups();
@@ -165,6 +177,8 @@ void TablePanel::setDevices(const std::vector<Device *> &devices)
     const int scrolled = m_view->verticalScrollBar()->value();
     m_model->setDevices(alike);
     m_tools->setDeviceCount(static_cast<int>(alike.size()));
+    if (!alike.empty())
+        m_view->makeRoomFor(alike.front()->table());
     m_view->applyColumnWidths();
     updateGroups();
     selectField(name);
@@ -195,35 +209,18 @@ void TablePanel::selectField(const QString &name)
             cell, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
 }
 
-void TablePanel::setEmptyText()
-{
-    const std::vector<Device *> &devices = m_model->devices();
-    if (devices.empty()) {
-        m_empty->setTexts(tr("No device selected"),
-                          tr("Select a servo on the left to see its control table here: every register with its value, "
-                             "what it means, and an editor where it can be changed."));
-    } else if (!devices.front()->isKnownModel()) {
-        m_empty->setTexts(tr("Unknown model %1").arg(devices.front()->modelNumber()),
-                          tr("There is no control table for this model yet. Its registers can be read by address on "
-                             "the command line: dxl read %1 ADDRESS:LENGTH").arg(devices.front()->id()));
-    }
-    m_pages->setCurrentIndex(devices.empty() || !devices.front()->isKnownModel() ? 0 : 1);
-}
-
 void TablePanel::refreshWatches()
 {
     m_model->refreshWatches();
 }
 
-void TablePanel::setAngleUnit(AngleUnit unit)
+void TablePanel::setUnits(const UnitPreferences &units)
 {
-    m_words->setAngleUnit(unit);
-    m_delegate->setAngleUnit(unit);
-    m_goals->setAngleUnit(unit);
-    m_help->setAngleUnit(unit);
-    m_view->applyColumnWidths();
-    updateGroups();
-    currentChanged();
+    m_delegate->setUnits(units);
+    m_words->setUnits(units);
+    m_goals->setUnits(units);
+    m_help->setUnits(units);
+    m_help->showCell(valueCell());
 }
 
 QModelIndex TablePanel::valueCell() const
@@ -250,20 +247,6 @@ void TablePanel::currentChanged()
     const bool several = m_model->devices().size() > 1;
     m_goals->setDevices(targets, !several ? QString()
                             : targets.size() > 1 ? tr("all %1").arg(targets.size()) : targets.front()->displayName());
-}
-
-void TablePanel::updateGroups()
-{
-    m_arranging = true;
-    for (int row = 0; row < m_filter->rowCount(); ++row) {
-        const QModelIndex group = m_filter->index(row, 0);
-        const QString title = group.data(GroupRole).toString();
-        const auto known = std::ranges::find(m_model->groups(), title, &FieldGroup::title);
-        const auto kept = m_folded.find(title);
-        const bool folded = kept != m_folded.end() ? kept->second : known != m_model->groups().end() && known->folded;
-        m_view->setExpanded(group, m_filter->isFiltering() || !folded);
-    }
-    m_arranging = false;
 }
 
 void TablePanel::togglePlot(const QModelIndex &cell)
@@ -295,7 +278,7 @@ void TablePanel::showMenu(const QPoint &at)
     TableMenuActions actions;
     if (const Field *field = fieldAt(cell)) {
         actions.togglePlot = [this, cell] { togglePlot(cell); };
-        if (field->isWritable())
+        if (isEditable(*field))
             actions.edit = [this, cell] { m_view->startEdit(cell); };
         if (cell.data(RawRole).isValid())
             actions.copyValue = [this] { copyValue(); };

@@ -26,7 +26,7 @@ class LockBar;
 class TableEmpty;
 class TableTools;
 class TableView;
-enum class AngleUnit;
+struct UnitPreferences;
 
 /// The control table of the selected devices: search, filters, grid with editors, goal sliders, why a field is locked.
 class TablePanel : public QWidget
@@ -42,7 +42,7 @@ public:
     void setDevices(const std::vector<Device *> &devices); ///< of one model; empty shows what belongs here
     void setSelected(std::size_t count); ///< where that is more than the table shows, it says so
     void refreshWatches();                                 ///< what is plotted has changed
-    void setAngleUnit(AngleUnit unit);
+    void setUnits(const UnitPreferences &units);
 
     QByteArray saveState() const; ///< column widths, what is folded
     void restoreState(const QByteArray &state);
@@ -61,6 +61,7 @@ protected:
 
 private:
     void build();
+    void buildNote(QWidget *parent);
     void connectParts();
     void addShortcuts();
     QModelIndex valueCell() const; ///< of the current row, in the view's model
@@ -69,7 +70,8 @@ private:
     void togglePlot(const QModelIndex &cell);
     void showMenu(const QPoint &at);
     void copyValue();
-    void setEmptyText();
+    void showNote();
+    void tellUnfolded();
     void selectField(const QString &name);
 
     TableActions m_actions;
@@ -78,6 +80,8 @@ private:
     FieldFilterModel *m_filter;
     TableTools *m_tools;
     ElidedLabel *m_others; ///< what is selected, but not shown
+    QWidget *m_note;       ///< what is uncertain about the whole table
+    ElidedLabel *m_noteText;
     TableView *m_view;
     FieldDelegate *m_delegate;
     LockBar *m_lockBar;

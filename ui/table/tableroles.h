@@ -12,9 +12,10 @@ namespace dynascope {
 enum class ColumnKind { Name, Plot, Address, Value, Physical, Device, Default, Range, Access };
 
 /// Raw roles of FieldTableModel, and below them the words FieldWordsModel adds. Delegates, filters and editors know
-/// these and no model. A group's row has none but GroupRole.
+/// these and no model. A group's row has none but GroupRole and GroupHintRole.
 enum TableRole {
     GroupRole = Qt::UserRole, ///< QString: the group's title
+    GroupHintRole,            ///< QString: what a group says beside its title; empty where that is plain
     FieldRole,                ///< int: index in the device's table; missing for groups
     FieldDataRole,            ///< const Field *
     KindRole,                 ///< int: ColumnKind
@@ -28,15 +29,24 @@ enum TableRole {
     ChangedFromDefaultRole,   ///< bool: writable, not as it left the factory; of any device but in values' columns
     WatchedRole,              ///< int: Qt::CheckState over all devices
     LockRole,                 ///< QString: why it can't be written now; empty where it can
+    PointsAtRole,             ///< qlonglong: the address that an Indirect Address or Data stands for; missing elsewhere
+    ControlTableRole,         ///< ControlTablePtr
     FadeRole,                 ///< double: 1 just changed … 0
     NumberRole,               ///< QString, words: the number without its unit; missing where the value has a name
     UnitRole,                 ///< QString, words: its unit
     PendingTextRole,          ///< QString, words: what is being written
+    HasMeaningRole,           ///< bool, words: raw values have a name or a unit, and are edited by it
 };
 
 inline const Field *fieldAt(const QModelIndex &index)
 {
     return index.data(FieldDataRole).value<const Field *>();
+}
+
+/// Has an editor: what may be written, and what a person may try to write.
+inline bool isEditable(const Field &field)
+{
+    return field.isWritable() || field.mayBeTried();
 }
 
 inline bool isValueKind(ColumnKind kind)
@@ -59,3 +69,4 @@ inline bool isProcedureField(const Field &field)
 
 Q_DECLARE_METATYPE(const dynascope::Field *)
 Q_DECLARE_METATYPE(dynascope::EffectiveField)
+Q_DECLARE_METATYPE(dynascope::ControlTablePtr)

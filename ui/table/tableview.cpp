@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/tableview.h"
 
+#include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/table/cellpainter.h"
+#include "ui/table/fieldwordsmodel.h"
 #include "ui/table/tableheader.h"
 
 #include <QDrag>
@@ -27,6 +30,8 @@ int defaultWidth(ColumnKind kind)
     }
     return 80;
 }
+
+constexpr int WidestName = 256; ///< longer ones elide: there is more to see
 
 QColor selectionTint(const QPalette &palette)
 {
@@ -66,13 +71,40 @@ TableView::TableView(QWidget *parent)
     });
 }
 
+void TableView::makeRoomFor(const ControlTable &table)
+{
+    const QFontMetrics digits(numberFont(font()));
+    m_needed.clear();
+    const auto need = [&](ColumnKind kind, const QString &text) {
+        int &width = m_needed[static_cast<int>(kind)];
+        width = std::max(width, digits.horizontalAdvance(withMinus(text)) + 2 * CellMargin + 2);
+    };
+    for (const Field &field : table.fields()) {
+        if (field.initial) {
+            need(ColumnKind::Value, QString::number(*field.initial));
+            need(ColumnKind::Default, QString::number(*field.initial));
+        }
+        need(ColumnKind::Range, rangeText(field, effective(field, {})));
+        const int mark = field.doubt.isEmpty() ? 0 : DoubtMark + 4;
+        QString whole = field.name;
+        if (!field.suggested.isEmpty())
+            whole += QStringLiteral("  %1?").arg(field.suggested);
+        const int name = fontMetrics().horizontalAdvance(whole) + 2 * indentation() + CellMargin + 4 + mark;
+        int &width = m_needed[static_cast<int>(ColumnKind::Name)];
+        width = std::max(width, std::min(name, WidestName));
+    }
+    // Nor the largest that fits into four bytes: few registers ever get there.
+    need(ColumnKind::Value, QString::number(-table.resolution()));
+}
+
 void TableView::applyColumnWidths()
 {
     m_applying = true;
     for (int section = 0; section < header()->count(); ++section) {
         const int kind = model()->headerData(section, Qt::Horizontal, KindRole).toInt();
         const auto kept = m_widths.find(kind);
-        header()->resizeSection(section, kept != m_widths.end() ? kept->second : defaultWidth(ColumnKind(kind)));
+        const int fitting = std::max(defaultWidth(ColumnKind(kind)), m_needed[kind]);
+        header()->resizeSection(section, kept != m_widths.end() ? kept->second : fitting);
     }
     m_applying = false;
 }
@@ -93,12 +125,10 @@ QModelIndex TableView::editTarget(const QModelIndex &index) const
     const bool byName = !field->values.empty() || !field->bits.empty();
     const ColumnKind kind = kindAt(index);
     if (kind == ColumnKind::Device || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
-        const bool hasUnit = index.data(EffectiveRole).value<EffectiveField>().unit != Unit::None;
-        if (kind != ColumnKind::Physical || byName || hasUnit)
+        if (kind != ColumnKind::Physical || index.data(HasMeaningRole).toBool())
             return index;
     }
-    const bool wantsUnits = byName || index.data(EffectiveRole).value<EffectiveField>().unit != Unit::None;
-    const ColumnKind wanted = wantsUnits ? ColumnKind::Physical : ColumnKind::Value;
+    const ColumnKind wanted = index.data(HasMeaningRole).toBool() ? ColumnKind::Physical : ColumnKind::Value;
     QModelIndex fallback;
     for (int column = 0; column < model()->columnCount(); ++column) {
         const QModelIndex there = index.siblingAtColumn(column);

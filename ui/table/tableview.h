@@ -11,7 +11,7 @@
 namespace dynascope {
 
 /// The grid: rows of registers under groups. Enter and F2 edit, Space plots, Left and Right go along the values of a
-/// row. Column widths never follow the content.
+/// row. Column widths follow what the table may hold, never the values.
 class TableView : public QTreeView
 {
     Q_OBJECT
@@ -26,6 +26,8 @@ public:
 
     void startEdit(const QModelIndex &index) { edit(index, AllEditTriggers, nullptr); }
 
+    /// Columns that a person hasn't set get room for the longest numbers of this table.
+    void makeRoomFor(const ControlTable &table);
     void applyColumnWidths(); ///< after the model's columns have changed
     const std::map<int, int> &columnWidths() const { return m_widths; } ///< by ColumnKind
     void setColumnWidths(std::map<int, int> widths);
@@ -43,6 +45,7 @@ protected:
 private:
     std::function<bool(const QModelIndex &)> m_gate;
     std::map<int, int> m_widths;
+    std::map<int, int> m_needed; ///< by ColumnKind, of this table's numbers
     bool m_applying = false;
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/valueedit.h"
 
+#include "core/table/indirect.h"
 #include "ui/common/theme.h"
 
+#include <QCompleter>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QWheelEvent>
@@ -11,7 +13,7 @@
 
 namespace dynascope {
 
-ValueEdit::ValueEdit(Meaning meaning, const QString &text, std::optional<std::int64_t> raw, QWidget *parent)
+ValueEdit::ValueEdit(ValueMeaning meaning, const QString &text, std::optional<std::int64_t> raw, QWidget *parent)
     : QLineEdit(text, parent)
     , m_meaning(std::move(meaning))
     , m_initial(text)
@@ -22,12 +24,29 @@ ValueEdit::ValueEdit(Meaning meaning, const QString &text, std::optional<std::in
     setFont(numberFont(font()));
     setAlignment(Qt::AlignRight);
     setMaxLength(64);
+    if (m_meaning.pointsInto)
+        offerRegisters(*m_meaning.pointsInto);
     connect(this, &QLineEdit::textChanged, this, &ValueEdit::say);
 }
 
 ValueEdit::~ValueEdit()
 {
     delete m_hint;
+}
+
+void ValueEdit::offerRegisters(const ControlTable &table)
+{
+    QStringList names;
+    for (const Field &field : table.fields()) {
+        if (checkRange(m_meaning.field, m_meaning.effective, field.address) && indirectDataNumber(field) == 0)
+            names << field.name;
+    }
+    auto *completer = new QCompleter(names, this);
+    completer->setCaseSensitivity(Qt::CaseInsensitive);
+    completer->setFilterMode(Qt::MatchContains);
+    completer->setMaxVisibleItems(12);
+    setCompleter(completer);
+    setAlignment(Qt::AlignLeft); // words
 }
 
 bool ValueEdit::isChanged() const
@@ -37,19 +56,15 @@ bool ValueEdit::isChanged() const
 
 Result<std::int64_t> ValueEdit::value() const
 {
-    QString typed = text().trimmed();
-    bool isBare = false;
-    typed.toDouble(&isBare);
-    if (isBare && m_meaning.physical)
-        typed += unitSymbol(m_meaning.effective.unit, m_meaning.angle);
-    return parseValue(m_meaning.field, m_meaning.effective, m_meaning.resolution, typed, m_meaning.angle);
+    return m_meaning.value(text());
 }
 
-QString ValueEdit::textOf(std::int64_t raw) const
+void ValueEdit::setEffective(const EffectiveField &effective)
 {
-    return m_meaning.physical
-        ? valueText(m_meaning.field, m_meaning.effective, m_meaning.resolution, raw, m_meaning.angle)
-        : QString::number(raw);
+    if (effective == m_meaning.effective)
+        return;
+    m_meaning.effective = effective;
+    say();
 }
 
 void ValueEdit::step(int steps)
@@ -57,9 +72,9 @@ void ValueEdit::step(int steps)
     const auto now = value();
     if (!now && !m_raw)
         return;
-    const std::int64_t least = m_meaning.effective.minimum.value_or(smallestRaw(m_meaning.field));
-    const std::int64_t most = m_meaning.effective.maximum.value_or(largestRaw(m_meaning.field));
-    setText(textOf(std::clamp((now ? *now : *m_raw) + steps, least, std::max(least, most))));
+    const auto [least, most] = signedRange(m_meaning.field, m_meaning.effective);
+    const std::int64_t from = signedFromRaw(m_meaning.effective, now ? *now : *m_raw);
+    setText(m_meaning.text(rawFromSigned(m_meaning.effective, std::clamp(from + steps, least, most))));
     selectAll();
 }
 
@@ -102,8 +117,7 @@ void ValueEdit::say()
     colours.setColor(QPalette::WindowText, now ? palette().color(QPalette::ToolTipText) : colors(palette()).bad);
     m_hint->setPalette(colours);
     if (now) {
-        const QString text
-            = valueText(m_meaning.field, m_meaning.effective, m_meaning.resolution, *now, m_meaning.angle);
+        const QString text = m_meaning.said(*now);
         const QString raw = QString::number(*now);
         m_hint->setText(text == raw ? tr("Enter writes %1").arg(raw) : tr("Enter writes %1 = raw %2").arg(text, raw));
     } else {
@@ -120,7 +134,10 @@ void ValueEdit::placeHint()
     const QWidget *around = parentWidget();
     const int width = std::clamp(m_hint->fontMetrics().horizontalAdvance(m_hint->text()) + 24, 140, 360);
     const QSize size(width, m_hint->heightForWidth(width));
-    const bool below = geometry().bottom() + 2 + size.height() <= around->height();
+    // Below are the names that fit, where names are typed.
+    const bool fitsAbove = geometry().top() - 2 - size.height() >= 0;
+    const bool fitsBelow = geometry().bottom() + 2 + size.height() <= around->height();
+    const bool below = completer() ? !fitsAbove : fitsBelow;
     const int top = below ? geometry().bottom() + 2 : geometry().top() - 2 - size.height();
     const int left = std::clamp(geometry().right() - size.width() + 1, 0, std::max(0, around->width() - size.width()));
     m_hint->setGeometry(QRect(QPoint(left, top), size));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/table/units.h"
+#include "ui/table/valuemeaning.h"
 
 #include <QLineEdit>
 #include <QPointer>
@@ -17,17 +17,11 @@ class ValueEdit : public QLineEdit
     Q_OBJECT
 
 public:
-    struct Meaning {
-        Field field;
-        EffectiveField effective;
-        int resolution = 4096;
-        AngleUnit angle = AngleUnit::Degrees;
-        bool physical = false; ///< a bare number is meant in the field's unit, not raw
-    };
-
-    ValueEdit(Meaning meaning, const QString &text, std::optional<std::int64_t> raw, QWidget *parent = nullptr);
+    ValueEdit(ValueMeaning meaning, const QString &text, std::optional<std::int64_t> raw, QWidget *parent = nullptr);
     ~ValueEdit() override;
 
+    /// Registers that range and unit depend on have changed meanwhile; the text stays as the person left it.
+    void setEffective(const EffectiveField &effective);
     bool isChanged() const; ///< a person did something to the text
     Result<std::int64_t> value() const;
 
@@ -39,12 +33,12 @@ protected:
     void hideEvent(QHideEvent *event) override;
 
 private:
-    QString textOf(std::int64_t raw) const;
+    void offerRegisters(const ControlTable &table);
     void step(int steps);
     void say();
     void placeHint();
 
-    Meaning m_meaning;
+    ValueMeaning m_meaning;
     QString m_initial;
     std::optional<std::int64_t> m_raw;
     QPointer<QLabel> m_hint; ///< beside this in the same parent

@@ -53,7 +53,7 @@ void FirstRead::onLine(LineSession *line)
 
 void FirstRead::read(Device &device)
 {
-    if (!device.isKnownModel() || device.line()->state() != BusThread::State::Open
+    if (device.line()->state() != BusThread::State::Open
         || device.state() == Device::State::Silent || !m_asked.insert(device.key()).second)
         return;
     m_workbench.commands.readAll(

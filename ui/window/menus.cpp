@@ -5,6 +5,7 @@
 #include "ui/common/texts.h"
 #include "ui/connection/connector.h"
 #include "ui/window/helpdialogs.h"
+#include "ui/window/unitmenu.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -110,6 +111,7 @@ void Menus::makeViewMenu(LayoutManager &layout)
     addScheme(ColorScheme::System, QStringLiteral("schemeSystemAction"), tr("As the &system"));
     addScheme(ColorScheme::Light, QStringLiteral("schemeLightAction"), tr("&Light"));
     addScheme(ColorScheme::Dark, QStringLiteral("schemeDarkAction"), tr("&Dark"));
+    connect(new UnitMenu(*menu, this), &UnitMenu::chosen, this, &Menus::unitsChosen);
     menu->addSeparator();
 
     auto *places = new QActionGroup(this);

@@ -12,6 +12,8 @@ class QMenu;
 
 namespace dynascope {
 
+struct UnitPreferences;
+
 /// The menu bar. Knows what there is to ask for, not how it is done.
 class Menus : public QObject
 {
@@ -40,6 +42,7 @@ signals:
     void scanRequested();
     void scanOptionsRequested();
     void schemeRequested(dynascope::ColorScheme scheme);
+    void unitsChosen(const dynascope::UnitPreferences &units);
     void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
     void libraryRequested();
     void resumeDemoRequested();

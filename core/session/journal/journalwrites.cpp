@@ -33,7 +33,7 @@ JournalDevice journalDevice(const Device &device)
 
 bool isGoal(const Field &field)
 {
-    return field.name.startsWith(QLatin1String("Goal "));
+    return field.name.startsWith(QLatin1String("Goal ")) || field.name == u"Moving Speed"; // the latter: XL-320
 }
 
 bool isIndirectData(const Field &field)

@@ -63,10 +63,16 @@ Result<std::vector<PollValue>> readBefore(JobContext &context, const std::vector
 Result<std::vector<PollValue>> writeAndRead(JobContext &context, const WriteFieldPlan &plan)
 {
     const Asking asking(context.bus(), plan.leavesOnlyPing);
+    const auto length = static_cast<std::uint16_t>(plan.data.data.size());
     auto written = writeVerified(context.bus(), plan.data);
     const bool isSilent = !written && written.error().kind == ErrorKind::NothingReceived;
     if (isSilent && plan.leavesOnlyPing && ping(context.bus(), plan.data.id))
         written = plan.data.data; // Ping is answered and no Read: it does as it was told
+    if (!written && !plan.becomes.empty()) {
+        const auto now = readValue(context.bus(), {plan.data.id, plan.data.address, length});
+        if (now && now->data == plan.becomes)
+            written = plan.becomes;
+    }
     if (!written)
         return tl::unexpected(written.error());
     PollValue readBack;

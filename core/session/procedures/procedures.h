@@ -32,6 +32,7 @@ struct WriteFieldPlan {
     std::vector<Span> sideEffects;
     bool leavesOnlyPing = false; ///< the value tells the device to answer nothing else: no Read will show it
     std::vector<Span> before = {}; ///< read first; what can't be read keeps nothing from being written
+    Bytes becomes = {};          ///< what the device itself makes of it once it is done; empty: it stays
 };
 struct WrittenField {
     std::vector<PollValue> before;
