@@ -3,6 +3,7 @@
 
 #include "app/dxl/arguments.h"
 #include "app/dxl/journaloptions.h"
+#include "app/dxl/moveoptions.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -27,6 +28,7 @@ enum class Command {
     Info,
     Journal,
     Led,
+    Move,
     Packet,
     Ping,
     Ports,
@@ -83,6 +85,7 @@ struct Options {
     QString shell;
     SimOptions sim;
     JournalOptions journal;
+    MoveOptions move;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

@@ -29,6 +29,7 @@ struct Typed {
     std::vector<std::string> registers, words;
     SimArguments sim;
     JournalArguments journal;
+    MoveArguments move;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual
