@@ -8,6 +8,7 @@
 
 namespace dynascope {
 class Journal;
+class MoveFile;
 }
 
 namespace dynascope::dxl {
@@ -26,6 +27,7 @@ struct Work {
 ExitCode backupCommand(const Work &work);
 ExitCode clearCommand(const Work &work);
 ExitCode infoCommand(const Work &work);
+ExitCode moveCommand(const Work &work);
 ExitCode packetCommand(const Work &work);
 ExitCode pingCommand(const Work &work);
 ExitCode readCommand(const Work &work);
@@ -39,6 +41,9 @@ ExitCode tableCommand(const Work &work);
 ExitCode watchCommand(const Work &work);
 ExitCode writeCommand(const Work &work);
 /// @}
+
+/// Where a plan of moves on this line is kept.
+MoveFile moveFileOf(const Options &options);
 
 ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output);
 ExitCode journalCommand(const Catalog &catalog, Options options, Output &output);

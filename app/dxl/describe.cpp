@@ -18,7 +18,7 @@ struct Name {
 constexpr std::array Names{
     Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"completion", Command::Completion},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
-    Name{"models", Command::Models}, Name{"packet", Command::Packet},
+    Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
     Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"read", Command::Read},
     Name{"reboot", Command::Reboot}, Name{"reset", Command::Reset},   Name{"scan", Command::Scan},
     Name{"sim", Command::Sim},       Name{"stats", Command::Stats},   Name{"stop", Command::Stop},
@@ -86,6 +86,7 @@ void describe(CLI::App &app, Typed &typed)
     describeRegisters(app, typed);
     describeActions(app, typed);
     describePacket(app, typed);
+    typed.move.describe(app);
     typed.journal.describe(app);
     typed.sim.describe(app);
     describeModels(app, typed.models);

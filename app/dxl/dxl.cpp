@@ -7,6 +7,7 @@
 #include "app/dxl/modelscommand.h"
 #include "core/bus/seriallinefactory.h"
 #include "core/session/journal/journal.h"
+#include "core/session/procedures/movefile.h"
 #include "core/table/usertables.h"
 
 namespace dynascope::dxl {
@@ -19,6 +20,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Backup: return backupCommand(work);
     case Command::Clear: return clearCommand(work);
     case Command::Info: return infoCommand(work);
+    case Command::Move: return moveCommand(work);
     case Command::Packet: return packetCommand(work);
     case Command::Ping: return pingCommand(work);
     case Command::Read: return readCommand(work);
@@ -49,6 +51,7 @@ bool isJournalled(const Options &options)
     case Command::Backup:
     case Command::Clear:
     case Command::Led:
+    case Command::Move:
     case Command::Packet:
     case Command::Reboot:
     case Command::Reset:
@@ -68,6 +71,12 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
             return output.refuse(chosen.error());
         options.port = *chosen;
         output.note(QStringLiteral("on %1, the one adapter that is there").arg(options.port));
+    }
+    const MoveFile moves = moveFileOf(options);
+    if (options.command != Command::Move && moves.exists()) {
+        const auto left = moves.load();
+        output.note(left ? unfinishedText(*left) + QStringLiteral("; dxl move --resume goes on, --forget leaves it so")
+                         : left.error().text + QStringLiteral(": ") + moves.path());
     }
     const auto connection = Connection::open(catalog, options);
     if (!connection)

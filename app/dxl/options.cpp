@@ -146,6 +146,12 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
             return tl::unexpected(journal.error());
         options.journal = std::move(*journal);
     }
+    if (options.command == Command::Move) {
+        auto move = typed.move.understand();
+        if (!move)
+            return tl::unexpected(move.error());
+        options.move = std::move(*move);
+    }
     if (options.command == Command::Packet) {
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());

@@ -4,6 +4,7 @@
 #include "app/dxl/arguments.h"
 #include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
+#include "app/dxl/moveoptions.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -29,6 +30,7 @@ enum class Command {
     Journal,
     Led,
     Models,
+    Move,
     Packet,
     Ping,
     Ports,
@@ -86,6 +88,7 @@ struct Options {
     ModelsArguments models;
     SimOptions sim;
     JournalOptions journal;
+    MoveOptions move;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

@@ -30,6 +30,7 @@ struct Typed {
     SimArguments sim;
     ModelsArguments models;
     JournalArguments journal;
+    MoveArguments move;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual

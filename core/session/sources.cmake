@@ -22,6 +22,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
     session/procedures/movedevices.cpp session/procedures/movedevices.h
+    session/procedures/movefile.cpp session/procedures/movefile.h
     session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h

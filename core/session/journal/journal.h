@@ -12,10 +12,10 @@
 
 namespace dynascope {
 
-/// Every write of this program, and of others that use the same folder: in memory, and in files that survive all of them.
-/// An entry is noted before the packet goes out, and again with what became of it. Made by app, handed to whoever writes;
-/// one thread (the GUI's, or that of `dxl`). A file that can't be written keeps nothing from being written to a device:
-/// failed() says so, once.
+/// Every write of this program, and of others that use the same folder: in memory, and in files that survive all of
+/// them. An entry is noted before the packet goes out, and again with what became of it. Made by app, handed to whoever
+/// writes; one thread (the GUI's, or that of `dxl`). A file that can't be written keeps nothing from being written to a
+/// device: failed() says so, once.
 class Journal : public QObject
 {
     Q_OBJECT
@@ -41,8 +41,8 @@ public:
     const QString &problem() const { return m_problem; } ///< why the file isn't written; empty: it is
     void refresh();                                      ///< takes in what other programs have noted meanwhile
 
-    /// Notes what is about to be written and gives it its number and time. A goal that is written again soon after, with
-    /// nothing between, continues its entry: a drag is one, from the first old value to the last new one.
+    /// Notes what is about to be written and gives it its number and time. A goal that is written again soon after,
+    /// with nothing between, continues its entry: a drag is one, from the first old value to the last new one.
     qint64 begin(JournalEntry entry);
     /// Will begin() continue an entry? Then the old value is known.
     bool continues(const JournalDevice &device, const RegisterChange &change) const;

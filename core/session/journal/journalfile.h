@@ -32,7 +32,8 @@ public:
     /// The first read() begins with the newest lines, those in so many bytes at the end.
     void beginNearEnd(qint64 bytes);
 
-    /// Hands over the whole lines that were added since the last call, by whatever program; at the first, all there are.
+    /// Hands over the whole lines that were added since the last call, by whatever program; at the first, all there
+    /// are.
     void read(const std::function<void(const QByteArray &line)> &take);
 
     /// Under the lock, behind a read(). `line` has no line break. Flushed to the system before this returns.

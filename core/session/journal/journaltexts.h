@@ -18,8 +18,8 @@ QString whatText(const JournalEntry &entry);
 /// "3 → 1"; of an entry that is no write its note.
 QString changeText(const Catalog &catalog, const JournalEntry &entry);
 
-/// A shell script of `dxl` that writes the same once more, in the order of the journal. What would switch torque on, and
-/// what can't be repeated, stands there as a comment. Nothing in an entry reaches the shell unquoted.
+/// A shell script of `dxl` that writes the same once more, in the order of the journal. What would switch torque on,
+/// and what can't be repeated, stands there as a comment. Nothing in an entry reaches the shell unquoted.
 QString scriptOf(std::span<const JournalEntry> entries);
 
 } // namespace dynascope

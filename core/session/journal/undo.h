@@ -7,8 +7,8 @@
 namespace dynascope {
 
 /// Takes entries of the journal back, or carries them out again, one after the other; each is an entry of the journal
-/// itself. Ends at the first that is refused or fails: those before it are done, which their entries say. Never switches
-/// torque on. GUI thread; owned by app.
+/// itself. Ends at the first that is refused or fails: those before it are done, which their entries say. Never
+/// switches torque on. GUI thread; owned by app.
 class Undo : public QObject
 {
     Q_OBJECT

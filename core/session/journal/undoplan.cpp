@@ -160,7 +160,8 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
     return step;
 }
 
-/// A later entry that stands and changed the same register of the same device; 0: none. Torque is not taken back anyway.
+/// A later entry that stands and changed the same register of the same device; 0: none. Torque is not taken back
+/// anyway.
 qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry)
 {
     const RegisterChange &main = entry.changes.front();

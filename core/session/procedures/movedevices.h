@@ -19,9 +19,9 @@ struct MoveHooks {
 /// looked for at both of its places, and `plan.next` brought up to date. Errors say that nothing was written.
 Result<void> checkMoves(JobContext &context, MovePlan &plan);
 
-/// Device by device, each verified at its new place before the next; where an answer is lost, looked for at the old place,
-/// too. Begins at `plan.next` and counts it up. An error says where the device is, or that it is at neither place; the same
-/// plan goes on from there, once what was wrong is put right.
+/// Device by device, each verified at its new place before the next; where an answer is lost, looked for at the old
+/// place, too. Begins at `plan.next` and counts it up. An error says where the device is, or that it is at neither
+/// place; the same plan goes on from there, once what was wrong is put right.
 Result<void> moveDevices(JobContext &context, MovePlan &plan, const MoveHooks &hooks);
 
 } // namespace dynascope

@@ -53,7 +53,8 @@ struct MovePlan {
 };
 
 /// In which order; swaps and cycles by way of a free ID. InvalidArgument, with the reason, where it can't end well: a
-/// place taken, also as a Secondary ID, or wanted twice; a baud rate that a model doesn't offer; no free ID for a detour.
+/// place taken, also as a Secondary ID, or wanted twice; a baud rate that a model doesn't offer; no free ID for a
+/// detour.
 Result<MovePlan> planMoves(std::vector<MoveDevice> devices);
 
 /// @name On disk, so that a killed program's next start knows what was half done

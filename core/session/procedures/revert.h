@@ -19,9 +19,9 @@ struct RevertRegister {
     std::optional<std::uint16_t> indirectAddress; ///< its register that says where it leads: it is looked at
 };
 
-/// Puts registers of one device back, the first being what once was written, the others what that write changed besides.
-/// Refused before the first write where that isn't the device of then, where it holds other values than those of then,
-/// and where torque or motion would have to change that may not. What is there already isn't written.
+/// Puts registers of one device back, the first being what once was written, the others what that write changed
+/// besides. Refused before the first write where that isn't the device of then, where it holds other values than those
+/// of then, and where torque or motion would have to change that may not. What is there already isn't written.
 struct RevertPlan {
     DevicePlace place;
     int firmware = -1; ///< −1: any

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/procedures/movefile.h"
+
+#include <QCoreApplication>
+#include <QCryptographicHash>
+#include <QDir>
+#include <QFile>
+#include <QSaveFile>
+#include <QStandardPaths>
+
+namespace dynascope {
+namespace {
+
+constexpr qint64 LargestFile = 1024 * 1024;
+
+QString tr(const char *text)
+{
+    return QCoreApplication::translate("Procedures", text);
+}
+
+} // namespace
+
+MoveFile::MoveFile(const QString &folder, const QString &line, const QString &adapter)
+{
+    if (folder.isEmpty())
+        return;
+    // An adapter keeps its plan wherever it is plugged in.
+    const QByteArray name = (adapter.isEmpty() ? line : adapter).toUtf8();
+    const QByteArray hash = QCryptographicHash::hash(name, QCryptographicHash::Sha1).toHex().left(16);
+    m_path = QStringLiteral("%1/moves-%2.json").arg(folder, QString::fromLatin1(hash));
+}
+
+QString MoveFile::usualFolder()
+{
+    const QString data = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation);
+    return data.isEmpty() ? QString() : data + QStringLiteral("/dynascope/moves");
+}
+
+bool MoveFile::exists() const
+{
+    return !m_path.isEmpty() && QFile::exists(m_path);
+}
+
+Result<MovePlan> MoveFile::load() const
+{
+    QFile file(m_path);
+    if (m_path.isEmpty() || !file.open(QIODevice::ReadOnly))
+        return failure(ErrorKind::NotFound, tr("No moves were left half done on this line"));
+    return movePlanFromJson(file.read(LargestFile + 1));
+}
+
+Result<void> MoveFile::save(const MovePlan &plan) const
+{
+    if (m_path.isEmpty())
+        return {};
+    if (plan.isOver()) {
+        remove();
+        return {};
+    }
+    QSaveFile file(m_path);
+    const QByteArray json = toJson(plan);
+    QDir().mkpath(QFileInfo(m_path).path());
+    if (!file.open(QIODevice::WriteOnly) || file.write(json) != json.size() || !file.commit()) {
+        return failure(
+            ErrorKind::BadFile,
+            tr("the plan can't be kept in %1 (%2), and without it nothing is moved").arg(m_path, file.errorString()));
+    }
+    return {};
+}
+
+void MoveFile::remove() const
+{
+    if (!m_path.isEmpty())
+        QFile::remove(m_path);
+}
+
+QString unfinishedText(const MovePlan &plan)
+{
+    if (plan.isOver())
+        return {};
+    const MoveStep &step = plan.steps[plan.next];
+    return tr("moves of devices were left half done: %1 of %2 steps; %3 is at %4 or at %5")
+        .arg(plan.next)
+        .arg(plan.steps.size())
+        .arg(plan.devices[step.device].place.name, placeText(step.from), placeText(step.to));
+}
+
+} // namespace dynascope
