@@ -132,7 +132,8 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     device.setPending(fieldIndex, raw);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
                         sideEffectsOf(device, field),
-                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, laterBytes(field, raw)};
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0,
+                        laterBytes(field, raw)};
     device.line()->bus().run<std::vector<PollValue>>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
         [this, key = device.key(), fieldIndex, raw,
