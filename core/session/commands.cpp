@@ -111,7 +111,8 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     const std::vector<const Field *> affected = affectedNow(device, field);
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
                         spansOf(device, among(affected)),
-                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {}, laterBytes(field, raw)};
+                        &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {},
+                        laterBytes(field, raw)};
     // Torque off waits for no Read, and of a drag the old value is known.
     const bool isTorqueOff = &field == device.table().find(Known::TorqueEnable) && raw == 0;
     const bool isDrag = m_journal && m_journal->continues(journalDevice(device), changeOf(field, raw));
