@@ -220,7 +220,9 @@ ExitCode check(const Catalog &catalog, const QString &path, Output &output)
     const auto models = static_cast<qint64>(with.models().size() - std::min(before, with.models().size()));
     Document document;
     document.add("file", path).addFlag("sound", true).add("models", models);
-    output.result(QStringLiteral("%1: sound, %2 new models").arg(path).arg(models), document);
+    output.result(models == 1 ? QStringLiteral("%1: sound, 1 new model").arg(path)
+                              : QStringLiteral("%1: sound, %2 new models").arg(path).arg(models),
+                  document);
     return ExitCode::Done;
 }
 

@@ -118,7 +118,7 @@ private slots:
         QCOMPARE(outcome.err, u"dxl: %1: line 3: Own: LED: unknown unit \"lux\"\n"_s.arg(bad));
         const QString good = file(u"good.txt"_s, "{ \"format\": 2, \"extends\": \"x330\", "
                                                  "\"models\": { \"Own\": { \"number\": 9001 } } }\n");
-        QCOMPARE(dxl({u"models"_s, u"check"_s, good}).out, u"%1: sound, 1 new models\n"_s.arg(good));
+        QCOMPARE(dxl({u"models"_s, u"check"_s, good}).out, u"%1: sound, 1 new model\n"_s.arg(good));
     }
 
     void badFiles_data()
