@@ -204,6 +204,8 @@ void MainWindow::openLibrary()
     if (raiseOpen(*this, name))
         return;
     auto *dialog = new LibraryDialog(m_workbench.session.catalog(), m_refused, this);
+    dialog->setUnits(savedUnits());
+    connect(m_menus, &Menus::unitsChosen, dialog, &LibraryDialog::setUnits);
     const std::vector<Device *> devices = m_devices->selectedDevices();
     if (!devices.empty())
         dialog->showModel(devices.front()->modelNumber(), devices.front()->firmware());

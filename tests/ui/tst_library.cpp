@@ -168,6 +168,18 @@ private slots:
             QVERIFY2(page().contains(sentence), qPrintable(page()));
     }
 
+    void aPageFollowsTheUnits()
+    {
+        open();
+        m_dialog->setUnits(AngleUnit::Radians);
+        m_dialog->showModel(1020, -1);
+        m_dialog->showRegister(u"Homing Offset"_s);
+        QVERIFY2(page().contains(u" rad)"_s), qPrintable(page()));
+        m_dialog->setUnits(AngleUnit::Degrees);
+        QVERIFY(!page().contains(u" rad)"_s));
+        QVERIFY2(page().contains(u" °)"_s), qPrintable(page()));
+    }
+
     void firmwareIsChosenAndItsDifferencesMarked()
     {
         open();

@@ -50,7 +50,7 @@ private slots:
             for (const Field &field : all.back()->fields()) {
                 if (field.name.startsWith(u"Indirect ") || field.name.startsWith(u"SyncTable"))
                     continue; // hundreds alike
-                const QString html = registerPage(field, *all.back(), all, m_palette);
+                const QString html = registerPage(field, *all.back(), all, {}, m_palette);
                 QVERIFY2(html.contains(field.name) && html.contains(field.help.toHtmlEscaped()),
                          qPrintable(field.name));
                 QVERIFY2(html != last, qPrintable(field.name));

@@ -41,7 +41,7 @@ QString meaningsText(const Field &field)
     for (const EnumValue &value : field.values)
         parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
     for (const EnumValue &value : field.special)
-        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
+        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(withMinus(QString::number(value.value)), value.text.toHtmlEscaped());
     for (const BitField &bits : field.bits) {
         QString name = bits.count == 1 ? FieldTexts::tr("bit %1").arg(bits.first)
                                        : FieldTexts::tr("bits %1–%2").arg(bits.first).arg(bits.first + bits.count - 1);

@@ -203,6 +203,12 @@ void LibraryDialog::refreshList()
     refreshPage();
 }
 
+void LibraryDialog::setUnits(const UnitPreferences &units)
+{
+    m_units = units;
+    refreshPage();
+}
+
 /// What is known of the current row's register.
 void LibraryDialog::refreshPage()
 {
@@ -218,7 +224,7 @@ void LibraryDialog::refreshPage()
         all = tablesOf(m_catalog, owner.modelNumber);
         field = table ? table->find(found->name) : nullptr;
     }
-    QString html = field ? registerPage(*field, *table, all, palette()) : QString();
+    QString html = field ? registerPage(*field, *table, all, m_units, palette()) : QString();
     if (field && m_stack->currentIndex() == Results)
         html.prepend(tr("<p style=\"margin:0 0 6px 0\">%1:</p>").arg(table->model().toHtmlEscaped()));
     if (html != m_page->property("shown").toString()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/table/catalog.h"
+#include "core/table/units.h"
 #include "core/table/usertables.h"
 
 #include <QDialog>
@@ -35,6 +36,7 @@ public:
     LibraryDialog(const Catalog &catalog, const std::vector<RefusedTable> &refused, QWidget *parent = nullptr);
     ~LibraryDialog() override;
 
+    void setUnits(const UnitPreferences &units);
     void showModel(int modelNumber, int firmware); ///< firmware −1: the newest
     void showRegister(const QString &name);        ///< of the model that is shown
     void search(const QString &text);              ///< over all models
@@ -83,6 +85,7 @@ private:
     QTextBrowser *m_page;
     std::vector<ControlTablePtr> m_tables; ///< of the model that is shown
     RefusedTable m_refusedFile;            ///< is shown instead of a model; without a name: none is
+    UnitPreferences m_units;
     QString m_otherSearch;                 ///< the text of the scope that isn't shown
 };
 

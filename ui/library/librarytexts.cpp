@@ -85,11 +85,11 @@ QString alternateText(const Alternate &alternate, const Field &field, const Cont
     return LibraryTexts::tr("While %1: %2.").arg(conditionText(alternate, table), parts.join(QStringLiteral(", ")));
 }
 
-QStringList numberLines(const Field &field, const ControlTable &table)
+QStringList numberLines(const Field &field, const ControlTable &table, const UnitPreferences &units)
 {
     const EffectiveField fresh = atFactory(field, table);
     QStringList facts;
-    const QString range = withUnits(field, fresh, table.resolution(), {}, fresh.minimum, fresh.maximum);
+    const QString range = withUnits(field, fresh, table.resolution(), units, fresh.minimum, fresh.maximum);
     const bool byName = !field.minimum.reg.isEmpty() || !field.maximum.reg.isEmpty();
     if (byName) {
         QString text = LibraryTexts::tr("Range %1").arg(boundsText(field).toHtmlEscaped());
@@ -101,8 +101,8 @@ QStringList numberLines(const Field &field, const ControlTable &table)
     }
     if (field.initial) {
         facts << LibraryTexts::tr("Default %1")
-                     .arg(
-                         withUnits(field, fresh, table.resolution(), {}, field.initial, field.initial).toHtmlEscaped());
+                     .arg(withUnits(field, fresh, table.resolution(), units, field.initial, field.initial)
+                              .toHtmlEscaped());
     }
     if (field.unit != Unit::None) {
         QString step = field.scale == 1.0 ? QStringLiteral("1 ") + stepText(field) : stepText(field);
@@ -119,14 +119,6 @@ QStringList numberLines(const Field &field, const ControlTable &table)
                      .arg(field.gearRatio.numerator.toHtmlEscaped(), field.gearRatio.denominator.toHtmlEscaped());
     }
     return facts;
-}
-
-QString specialText(const Field &field)
-{
-    QStringList parts;
-    for (const EnumValue &value : field.special)
-        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(numberText(value.value), value.text.toHtmlEscaped());
-    return parts.join(Dot);
 }
 
 QString sinceText(const QString &what, int firmware)
@@ -217,7 +209,7 @@ QString modelFacts(const Catalog::ModelInfo &info, const ControlTable &table, co
 }
 
 QString registerPage(const Field &field, const ControlTable &table, const std::vector<ControlTablePtr> &all,
-                     const QPalette &palette)
+                     const UnitPreferences &units, const QPalette &palette)
 {
     const ThemeColors &theme = colors(palette);
     QString page = paragraph(
@@ -230,9 +222,8 @@ QString registerPage(const Field &field, const ControlTable &table, const std::v
             page += paragraph(html);
     };
     add(field.help.toHtmlEscaped());
-    add(numberLines(field, table).join(Dot));
+    add(numberLines(field, table, units).join(Dot));
     add(meaningsText(field));
-    add(specialText(field));
     for (const Alternate &alternate : field.alternates)
         add(alternateText(alternate, field, table));
     if (!field.resets.isEmpty())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/table/catalog.h"
+#include "core/table/units.h"
 
 #include <QPalette>
 #include <QStringList>
@@ -23,6 +24,6 @@ QString modelFacts(const Catalog::ModelInfo &info, const ControlTable &table, co
                    const QPalette &palette);
 /// Everything that is known of a register: rich text. `all`: every table of the model, the oldest firmware first.
 QString registerPage(const Field &field, const ControlTable &table, const std::vector<ControlTablePtr> &all,
-                     const QPalette &palette);
+                     const UnitPreferences &units, const QPalette &palette);
 
 } // namespace dynascope
