@@ -3,6 +3,7 @@
 
 #include "app/dxl/arguments.h"
 #include "app/dxl/device.h"
+#include "core/session/procedures/procedures.h"
 
 namespace dynascope::dxl {
 
@@ -14,7 +15,7 @@ struct Assignment {
     Bytes data;
 
     bool isLockedByTorque() const { return !argument.isByAddress() && field->needsTorqueOff(); }
-    bool isInRam() const { return field && field->area == Area::Ram; }
+    bool isInRam() const { return field && field->area == Area::Ram && becomesLater(*field, raw).empty(); }
     SpanData to(const Device &device) const
     {
         const int address = field ? field->address : argument.address;

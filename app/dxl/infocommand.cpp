@@ -33,6 +33,11 @@ QString infoText(Device &device, const std::vector<Reading> &readings)
         rows.push_back({QStringLiteral("Series"), table->description().series});
         rows.push_back({QStringLiteral("Table"),
                         QStringLiteral("%1, %2").arg(table->model(), firmwareText(table->description()))});
+        if (table->isNewerThanKnown(found.firmware))
+            rows.push_back({QStringLiteral("Note"),
+                            QStringLiteral("firmware %1 is newer than the newest known, %2: its table may differ")
+                                .arg(found.firmware)
+                                .arg(table->description().newestFirmware)});
     } else {
         rows.push_back({QStringLiteral("Table"), QStringLiteral("none; registers are reached as ADDRESS:LENGTH")});
     }

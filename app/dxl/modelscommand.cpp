@@ -150,7 +150,7 @@ Result<std::pair<ControlTablePtr, int>> named(const Catalog &catalog, const QStr
     }
     bool ok = true;
     const int firmware = slash < 0 ? info->newestFirmware : text.mid(slash + 1).toInt(&ok);
-    if (!ok || firmware > 255)
+    if (!ok || firmware > 255 || (slash >= 0 && firmware < 0))
         return failure(ErrorKind::InvalidArgument, QStringLiteral("the firmware is a number from 0 to 255"));
     return std::pair(catalog.find(info->modelNumber, firmware), firmware);
 }
@@ -253,7 +253,9 @@ ExitCode importFile(const ModelsArguments &arguments, Output &output)
         output.note(note);
     if (!arguments.out.empty())
         return save(QString::fromStdString(arguments.out), table->json, output);
-    std::fwrite(table->json.constData(), 1, static_cast<std::size_t>(table->json.size()), stdout);
+    const auto size = static_cast<std::size_t>(table->json.size());
+    if (std::fwrite(table->json.constData(), 1, size, stdout) != size || std::fflush(stdout) != 0)
+        return output.fail({ErrorKind::BadFile, QStringLiteral("standard output takes no more: nothing is complete")});
     return ExitCode::Done;
 }
 

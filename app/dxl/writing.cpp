@@ -95,6 +95,9 @@ Result<Bytes> writeNoted(const Work &work, Device &device, const RegisterChange 
         plan.sideEffects = spansOf(*device.table(), device.id(), [&affected](const Field &field) {
             return std::ranges::find(affected, &field) != affected.end();
         });
+        const Field *field = device.table()->find(change.name);
+        if (field && field->address == change.address && field->size == static_cast<int>(change.after.size()))
+            plan.becomes = becomesLater(*field, rawFromBytes(*field, change.after));
     }
     plan.before = plan.sideEffects;
     if (change.before.empty())

@@ -23,13 +23,6 @@ std::vector<const Field *> affectedNow(const Device &device, const Field &field)
     return affectedBy(device.table(), field, device.goalTurnsTorqueOn() && !device.isTorqueOn());
 }
 
-/// Manual: "Hybrid Save". It is a request and its answer in one register.
-Bytes laterBytes(const Field &field, std::int64_t raw)
-{
-    constexpr std::int64_t Save = 1, Saved = 2;
-    return field.name == u"Hybrid Save" && raw == Save ? bytesFromRaw(field, Saved) : Bytes();
-}
-
 } // namespace
 
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest)
@@ -112,7 +105,7 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     WriteFieldPlan plan{placeOf(device), {device.id(), field.address, bytesFromRaw(field, raw)},
                         spansOf(device, among(affected)),
                         &field == device.table().find(Known::StatusReturnLevel) && raw == 0, {},
-                        laterBytes(field, raw)};
+                        becomesLater(field, raw)};
     // Torque off waits for no Read, and of a drag the old value is known.
     const bool isTorqueOff = &field == device.table().find(Known::TorqueEnable) && raw == 0;
     const bool isDrag = m_journal && m_journal->continues(journalDevice(device), changeOf(field, raw));

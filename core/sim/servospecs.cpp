@@ -77,6 +77,10 @@ Result<void> checkServoSpec(ServoSpec &spec, const Catalog &catalog)
                                                                                     : spec.firmware);
     if (!table)
         return failure(ErrorKind::NotFound, QStringLiteral("no table of %1 is known for that firmware").arg(info->model));
+    if (table->description().baudCodes.empty())
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("the table of %1 doesn't say its baud rates, without which it can't be simulated")
+                           .arg(info->model));
     if (!table->baudCode(spec.baudRate)) {
         QStringList rates;
         for (const BaudCode &code : table->description().baudCodes)

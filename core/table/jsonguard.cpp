@@ -10,6 +10,8 @@
 namespace dynascope {
 namespace {
 
+constexpr qsizetype LongestKey = 128; ///< bytes
+
 /// What is wrong before a parser sees it, with its line; empty where nothing is. Bad syntax is left for the parser.
 QString wrongStructure(const QByteArray &json)
 {
@@ -22,6 +24,8 @@ QString wrongStructure(const QByteArray &json)
         keys.resize(static_cast<std::size_t>(scanner.depth()));
         if (token != JsonScanner::Token::Key)
             continue;
+        if (scanner.text().size() > LongestKey)
+            return here(QStringLiteral("a key longer than %1 bytes").arg(LongestKey));
         if (scanner.hasEscape())
             return here(QStringLiteral("a key with an escape in it"));
         if (!keys.back().insert(scanner.text().toByteArray()).second)

@@ -4,8 +4,6 @@
 namespace dynascope {
 namespace {
 
-constexpr QChar Joint(u'\n'); // no key has one: jsonguard refuses keys with escapes
-
 bool endsScalar(char c)
 {
     return c == ',' || c == '}' || c == ']' || c == ':' || c == '"' || c == '{' || c == '[' || c == '\n' || c == ' '
@@ -81,41 +79,35 @@ JsonScanner::Token JsonScanner::scalar()
     return Token::Value;
 }
 
-JsonPositions::JsonPositions(QByteArrayView json)
+int JsonPositions::line(const QStringList &path) const
 {
     struct Level {
-        QString path;
         bool isObject;
+        bool isOnPath; ///< so are all around it
         int count = 0; ///< entries of a list so far
     };
     std::vector<Level> open;
-    QString path; ///< of the value to come
-    JsonScanner scanner(json);
+    bool isOnPath = true; ///< the value to come
+    JsonScanner scanner(m_json);
     for (auto token = scanner.next(); token != JsonScanner::Token::End; token = scanner.next()) {
         if (token == JsonScanner::Token::Close) {
             open.pop_back();
             continue;
         }
-        if (token == JsonScanner::Token::Key && !open.empty()) {
-            path = open.back().path + Joint + QString::fromUtf8(scanner.text());
-            m_lines.insert(path, scanner.line());
-            continue;
-        }
-        if (!open.empty() && !open.back().isObject) {
-            path = open.back().path + Joint + QString::number(open.back().count++);
-            m_lines.insert(path, scanner.line());
+        const auto depth = static_cast<qsizetype>(open.size());
+        if (depth > 0 && (token == JsonScanner::Token::Key || !open.back().isObject)) {
+            isOnPath = open.back().isOnPath && depth <= path.size();
+            if (token == JsonScanner::Token::Key)
+                isOnPath = isOnPath && QString::fromUtf8(scanner.text()) == path[depth - 1];
+            else // every entry counts
+                isOnPath = QString::number(open.back().count++) == path.value(depth - 1) && isOnPath;
+            if (isOnPath && depth == path.size())
+                return scanner.line();
         }
         if (token == JsonScanner::Token::Open)
-            open.push_back({path, scanner.isObject()});
+            open.push_back({scanner.isObject(), isOnPath});
     }
-}
-
-int JsonPositions::line(const QStringList &path) const
-{
-    QString joined;
-    for (const QString &key : path)
-        joined += Joint + key;
-    return m_lines.value(joined, 0);
+    return 0;
 }
 
 } // namespace dynascope

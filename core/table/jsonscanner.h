@@ -2,7 +2,6 @@
 #pragma once
 
 #include <QByteArray>
-#include <QHash>
 #include <QStringList>
 
 #include <vector>
@@ -52,14 +51,15 @@ private:
 class JsonPositions
 {
 public:
-    /// One pass over `json`, which readJsonObject() has bounded.
-    explicit JsonPositions(QByteArrayView json);
+    /// `json` outlives this; readJsonObject() has bounded it.
+    explicit JsonPositions(QByteArrayView json) : m_json(json) { }
 
-    /// Of the key that this path leads to; entries of lists are called "0", "1"...; 0 where there is none.
+    /// Of the key that this path leads to; entries of lists are called "0", "1"...; 0 where there is none. One pass over
+    /// the text, and nothing of it is kept.
     int line(const QStringList &path) const;
 
 private:
-    QHash<QString, int> m_lines; ///< by the keys, joined
+    QByteArrayView m_json;
 };
 
 } // namespace dynascope

@@ -66,7 +66,10 @@ int lineFor(const QByteArray &json, const TableFault &fault, const QString &mode
     const JsonPositions positions(json);
     if (model.isEmpty())
         return lineOf(positions, fault.path);
-    const QStringList variants = QJsonDocument::fromJson(json).object().value(u"variants").toObject().keys();
+    // Each place is a pass over the text: of a large file with many variants not all are looked through.
+    constexpr qsizetype Large = 64 * 1024, Many = 64, Few = 4;
+    const QStringList variants =
+        QJsonDocument::fromJson(json).object().value(u"variants").toObject().keys().mid(0, json.size() > Large ? Few : Many);
     for (const QStringList &path : {fault.path, fault.elsewhere}) {
         if (const int line = lineOf(positions, path, model, variants))
             return line;

@@ -18,6 +18,7 @@
 namespace dynascope {
 namespace {
 
+constexpr qsizetype MostColumns = 64; ///< further ones are nobody's: a name is looked up in each row
 constexpr std::size_t MostRows = 2000;
 constexpr qsizetype LongestName = 80;
 
@@ -92,7 +93,7 @@ Result<ImportedTable> Importer::fromModel(const QByteArray &text)
             section = first.toLower();
             header.clear();
         } else if (header.isEmpty()) {
-            header = row.cells; // names the columns
+            header = row.cells.mid(0, MostColumns); // names the columns
         } else if (section == u"[type info]") {
             typeInfo(row, zero, lowest, lowestRadian);
         } else if (section == u"[unit info]") {
@@ -221,7 +222,7 @@ Result<ImportedTable> Importer::fromCsv(const QByteArray &text)
             csvRow(row, header);
             continue;
         }
-        header = row.cells;
+        header = row.cells.mid(0, MostColumns);
         for (const char16_t *needed : {u"address", u"size", u"name"}) {
             if (!header.contains(QStringView(needed))) {
                 say(row.line,

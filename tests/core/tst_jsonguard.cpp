@@ -42,6 +42,8 @@ private slots:
         row("twice, behind a nested object", R"({"a": {"b": [1, 2]}, "a": 2})", "t: line 1: \"a\" stands twice");
         row("twice, deep", R"({"a": [{"b": {"c": 1, "c": 2}}]})", "t: line 1: \"c\" stands twice");
         row("twice, one written with an escape", "{\"a\": 1, \"\\u0061\": 2}", "t: line 1: a key with an escape in it");
+        row("longest key", "{\"" + QByteArray(128, 'k') + "\": 1}", "1 keys");
+        row("a key too long", "{\"" + QByteArray(129, 'k') + "\": 1}", "t: line 1: a key longer than 128 bytes");
         row("a list", "[1]", "t: not a JSON object");
         row("nothing", "", "t: line 1: not JSON (illegal value)");
         row("deepest", nested(MaximumTableFileDepth, '[', ']'), "1 keys");

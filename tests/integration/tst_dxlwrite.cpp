@@ -40,6 +40,17 @@ private slots:
         QCOMPARE(instructions(Instruction::Write), 0);
     }
 
+    /// A request that the device turns into its answer: reading back the answer is success, of several devices, too.
+    void hybridRegistersAreSaved()
+    {
+        DxlBus bus(u"YM070-210-R051-RH@57600:1,YM070-210-R051-RH@57600:2"_s);
+        const QStringList save{u"write"_s, u"1,2"_s, u"Hybrid Save=1"_s};
+        const Outcome outcome = bus.dxl(save);
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.out, u"ID 1: Hybrid Save = 2 (Saved)\nID 2: Hybrid Save = 2 (Saved)\n"_s);
+        QCOMPARE(outcome.code, 0);
+    }
+
     void eepromIsWrittenToOneAfterTheOther()
     {
         const Outcome outcome = m_bus->dxl(u"write 1,2 return_delay_time=0 led=on");

@@ -69,6 +69,21 @@ private slots:
         QCOMPARE(found, names);
     }
 
+    /// What was 87.9 degrees must not be taken for 88.9 radians.
+    void unitsThatChangeWhileAGoalWaitsMoveNothing()
+    {
+        TableFixture fixture;
+        Bar window(fixture);
+        window.bar.setDevices({moving(fixture, 1)});
+        window.slider->setValue(1000);
+        window.slider->setValue(1001); // waits for its turn
+        window.bar.setUnits(AngleUnit::Radians);
+        window.spin->stepUp();
+        QTRY_COMPARE(fixture.written().size(), 2);
+        const int goal = fixture.written().last().section(u'=', 1).toInt();
+        QVERIFY2(goal > 990 && goal < 1030, qPrintable(fixture.written().last()));
+    }
+
     void writesAtMostThirtyTimesASecondAndTheLast()
     {
         TableFixture fixture;

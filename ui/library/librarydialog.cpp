@@ -148,7 +148,9 @@ void LibraryDialog::search(const QString &text)
 
 void LibraryDialog::setAllModels(bool all)
 {
-    const QString before = std::exchange(m_otherSearch, m_search->text());
+    QString before = std::exchange(m_otherSearch, m_search->text());
+    if (all && before.isEmpty())
+        before = m_otherSearch; // the same question, asked of all
     if (all) {
         m_reader->start();
         m_header->setTitle(tr("All models"), {});

@@ -106,8 +106,9 @@ QStringList numberLines(const Field &field, const ControlTable &table, const Uni
     }
     if (field.unit != Unit::None) {
         QString step = field.scale == 1.0 ? QStringLiteral("1 ") + stepText(field) : stepText(field);
-        if (field.unit == Unit::Pulse)
-            step += QStringLiteral(", %1 °").arg(physical(fresh, table.resolution(), 1).value, 0, 'g', 4);
+        const Physical one = physical(fresh, table.resolution(), 1, units);
+        if (field.unit == Unit::Pulse && !units.raw && units.angle != AngleUnit::Pulses)
+            step += QStringLiteral(", %1 %2").arg(one.value, 0, 'g', 4).arg(one.unit);
         facts << LibraryTexts::tr("One step is %1").arg(step.toHtmlEscaped());
     }
     if (field.torqueConstant > 0)

@@ -103,7 +103,8 @@ void GoalSlider::setWhom(const QString &whom)
 
 void GoalSlider::setUnits(const UnitPreferences &units)
 {
-    m_units = units;
+    m_chosen = units;
+    m_typing = false; // what stands there was typed in the old ones
     refresh();
 }
 
@@ -145,6 +146,7 @@ void GoalSlider::refresh()
 void GoalSlider::setUpRange(const Device &device)
 {
     const Field &field = device.table().fields()[static_cast<std::size_t>(m_field)];
+    m_units = m_chosen;
     m_effective = device.effective(m_field);
     m_resolution = device.table().resolution();
     const auto [least, most] = signedRange(field, m_effective);

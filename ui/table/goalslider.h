@@ -44,7 +44,8 @@ private:
     std::vector<QPointer<Device>> m_devices;
     QString m_whom;
     int m_field = -1;
-    UnitPreferences m_units;
+    UnitPreferences m_chosen;
+    UnitPreferences m_units; ///< of what the spin box shows: follows once nobody drags or types
     EffectiveField m_effective;
     int m_resolution = 4096;
     WriteThrottle m_throttle;

@@ -138,7 +138,13 @@ void TablePanel::connectParts()
         if (!parent.isValid())
             updateGroups();
     });
-    connect(m_tools, &TableTools::filterChanged, this, &TablePanel::updateGroups);
+    connect(m_tools, &TableTools::filterChanged, this, [this] {
+        updateGroups();
+        if (m_filter->isFiltering())
+            m_view->scrollToTop(); // the first hit, not where one was before
+        else if (m_view->currentIndex().isValid())
+            m_view->scrollTo(m_view->currentIndex());
+    });
     connect(m_tools, &TableTools::leaveSearch, this, [this] {
         m_view->setFocus();
         // What was current may have been filtered away: its successor is current, but not selected.

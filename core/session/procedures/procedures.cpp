@@ -3,6 +3,7 @@
 
 #include "core/bus/asking.h"
 #include "core/session/procedures/atbaud.h"
+#include "core/table/controltable.h"
 
 namespace dynascope {
 namespace {
@@ -88,6 +89,12 @@ Result<std::vector<PollValue>> writeAndRead(JobContext &context, const WriteFiel
 }
 
 } // namespace
+
+Bytes becomesLater(const Field &field, std::int64_t raw)
+{
+    constexpr std::int64_t Save = 1, Saved = 2;
+    return field.name == u"Hybrid Save" && raw == Save ? bytesFromRaw(field, Saved) : Bytes();
+}
 
 Result<WrittenField> writeField(JobContext &context, const WriteFieldPlan &plan)
 {

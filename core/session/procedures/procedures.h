@@ -9,6 +9,8 @@
 /// They know registers by address only; who makes the plan knows the table.
 namespace dynascope {
 
+struct Field;
+
 /// Where a device is, and how its torque is turned off.
 struct DevicePlace {
     std::uint8_t id = 0;
@@ -34,6 +36,8 @@ struct WriteFieldPlan {
     std::vector<Span> before = {}; ///< read first; what can't be read keeps nothing from being written
     Bytes becomes = {};          ///< what the device itself makes of it once it is done; empty: it stays
 };
+/// Manual: "Hybrid Save". It is a request and its answer in one register; nothing for every other one.
+Bytes becomesLater(const Field &field, std::int64_t raw);
 struct WrittenField {
     std::vector<PollValue> before;
     Result<std::vector<PollValue>> after; ///< the register itself, then the side effects; the write's failure
