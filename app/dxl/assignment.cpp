@@ -104,9 +104,11 @@ Result<void> checkTorque(Device &device, const std::vector<Assignment> &assignme
             on = assignment.raw != 0;
         else if (on && assignment.isLockedByTorque()) {
             return failure(ErrorKind::InvalidArgument,
-                           QStringLiteral("%1: %2 is in the EEPROM area, which is locked while torque is on; write "
-                                          "torque_enable=off first; nothing was written")
-                               .arg(device.name(), assignment.field->name));
+                           QStringLiteral("%1: %2 %3 while torque is on; write torque_enable=off first; nothing was "
+                                          "written")
+                               .arg(device.name(), assignment.field->name,
+                                    assignment.field->torqueOff ? QStringLiteral("can't be written")
+                                                                : QStringLiteral("is in the EEPROM area, which is locked")));
         }
     }
     return {};

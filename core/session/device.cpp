@@ -89,7 +89,9 @@ QString Device::lockReason(int fieldIndex, bool insisting) const
     if (m_state == State::Rebooting)
         return tr("%1 is rebooting.").arg(displayName());
     if (field.needsTorqueOff() && isTorqueOn())
-        return tr("%1 is in the EEPROM area, which the servo locks while its torque is on.").arg(field.name);
+        return (field.torqueOff ? tr("%1 can be written only while the servo's torque is off.")
+                                : tr("%1 is in the EEPROM area, which the servo locks while its torque is on."))
+            .arg(field.name);
     return {};
 }
 

@@ -54,6 +54,8 @@ DeviceError Servo::checkWrite(int address, ByteView data, Address how) const
             return error;
         for (const Field *field : m_registers.fieldsIn(run)) {
             const auto isIt = [&](Reg goal) { return m_registers.field(goal) == field; };
+            if (torque && field->torqueOff)
+                return DeviceError::Access;
             if (watchdogTripped && std::ranges::any_of(Goals, isIt))
                 return DeviceError::DataRange;
             // Only 0 ends it.

@@ -107,13 +107,13 @@ struct Field {
     std::vector<BitField> bits;
     std::vector<Alternate> alternates;
     QStringList resets;    ///< registers that a write here puts back to other values
+    bool torqueOff = false; ///< outside the EEPROM, too, written only while torque is off
     QString help;          ///< one or two sentences
     QString doubt;         ///< what is uncertain about this entry, a sentence; empty: nothing
     QString suggested;     ///< of a byte in the table of an unknown model: the register that its neighbours have here
-
     bool isWritable() const { return access == Access::ReadWrite; }
     bool mayBeTried() const { return access == Access::Unknown; } ///< a person may write it, told what isn't known
-    bool needsTorqueOff() const { return area == Area::Eeprom && isWritable(); }
+    bool needsTorqueOff() const { return isWritable() && (area == Area::Eeprom || torqueOff); }
     int end() const { return address + size; }
 };
 

@@ -213,6 +213,11 @@ void FieldReader::readTexts(const QJsonObject &json)
     m_field.help = readText(json, QStringLiteral("help"));
     m_reading = QStringLiteral("doubt");
     m_field.doubt = readText(json, QStringLiteral("doubt"));
+    m_reading = QStringLiteral("needs");
+    const QJsonValue needs = json.value(u"needs");
+    m_field.torqueOff = needs == QLatin1String("torque off");
+    if (!needs.isUndefined() && !m_field.torqueOff)
+        say(QStringLiteral("\"needs\" must be \"torque off\""));
     m_reading = QStringLiteral("resets");
     const QJsonValue resets = json.value(u"resets");
     if (!resets.isUndefined() && !resets.isArray())

@@ -40,7 +40,7 @@ const QStringList &registerKeys()
 {
     static const QStringList list =
         keys("address count stride size signed area access initial range unit scale directionBit values special bits "
-             "alternates resets help doubt since until");
+             "alternates resets needs help doubt since until");
     return list;
 }
 

@@ -212,6 +212,7 @@ private slots:
         row("{ \"bit\": 0 }", "{ \"bit\": 5 }", "T-1: Flags: \"First\" and \"Shape\" overlap");
         row("\"1\": \"Round\"", "\"4\": \"Round\"", "T-1: Flags: value 4 doesn't fit \"Shape\"");
         row("\"resets\": [\"Goal\"]", "\"resets\": [\"Gaol\"]", "T-1: Mode: resets Gaol, which is no register");
+        row("\"resets\": [\"Goal\"]", "\"needs\": \"luck\"", "T-1: Mode: \"needs\" must be \"torque off\"");
         row("\"resets\": [\"Goal\"]", "\"resets\": \"Goal\"", "T-1: Mode: \"resets\" must be a list of registers");
         row("\"register\": \"Mode\"", "\"register\": \"Moed\"",
             "T-1: Goal: an alternate needs \"register\", one of this table, and either \"bit\" or \"values\"");

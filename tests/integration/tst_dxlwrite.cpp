@@ -49,6 +49,10 @@ private slots:
         QCOMPARE(outcome.err, QString());
         QCOMPARE(outcome.out, u"ID 1: Hybrid Save = 2 (Saved)\nID 2: Hybrid Save = 2 (Saved)\n"_s);
         QCOMPARE(outcome.code, 0);
+        bus.call([](sim::SimulatedBus &there, LineTime) { there.servo(2, 57600)->write(u"Torque Enable", 1); });
+        const Outcome refused = bus.dxl(save); // the table says that it needs torque off
+        QCOMPARE(refused.code, 1);
+        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"orque"), qPrintable(refused.err));
     }
 
     void eepromIsWrittenToOneAfterTheOther()
