@@ -3,7 +3,6 @@
 
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
-#include "core/session/procedures/atbaud.h"
 #include "core/table/catalog.h"
 
 #include <QCoreApplication>
@@ -223,7 +222,7 @@ qint64 nextToRedo(const JournalEntries &entries, const QString &run)
             return 0; // something new since
         if (entry->undoes > 0 && entry->state == JournalState::Done && undone.contains(entry->undoes)) {
             const JournalEntry *taken = find(entries, entry->undoes);
-            if (taken && !wouldSwitchOn(*taken, Direction::Redo))
+            if (taken && isRevertible(*taken) && !wouldSwitchOn(*taken, Direction::Redo))
                 return taken->number;
         }
     }
@@ -311,84 +310,18 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
             return failure(ErrorKind::InvalidArgument, tr("Entry %1 would switch torque on").arg(number));
     }
     keepOthers(plan, main, table.get());
-    plan.readsNothing = isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    const Field *level = table ? table->find(Known::StatusReturnLevel) : nullptr;
+    plan.readsNothing = level && level->address == main.address && level->size == main.after.size()
+                        && isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    if (plan.readsNothing) { // what the others hold isn't known, so nothing is written to them
+        plan.kept.clear();
+        plan.registers.resize(1);
+    }
     plan.changedSince = direction == Direction::Undo ? changedSince(entries, entry) : 0;
     plan.goals = table ? spansOf(*table, step.place.id, isGoal) : std::vector<Span>();
     plan.mayMove = options.mayMove;
     plan.mayTurnTorqueOff = options.mayTurnTorqueOff;
     return step;
-}
-
-Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
-{
-    UndoResult result;
-    if (!step.newId && !step.newBaud) {
-        auto reverted = revert(context, step.registers);
-        if (!reverted)
-            return tl::unexpected(reverted.error());
-        result.registers = std::move(*reverted);
-        return result;
-    }
-    const auto there = look(context, step.place);
-    if (!there)
-        return tl::unexpected(there.error());
-    if (there->modelNumber != step.place.modelNumber || there->firmware != step.entry.device.firmware) {
-        return failure(ErrorKind::NotFound, tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
-                                                .arg(step.place.id)
-                                                .arg(step.place.baudRate)
-                                                .arg(step.place.name));
-    }
-    const bool mayTurnOff = step.newId ? step.newId->turnTorqueOff : step.newBaud->turnTorqueOff;
-    if (step.registers.torqueAddress && !mayTurnOff) {
-        const AtBaud here(context.bus(), step.place.baudRate);
-        const auto torque = read(context.bus(), {step.place.id, *step.registers.torqueAddress, 1});
-        if (torque && torque->data.front() != 0) {
-            result.registers.missing = Consent::TorqueOff;
-            result.registers.why =
-                tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(step.place.name);
-            return result;
-        }
-    }
-    auto found = step.newId ? changeId(context, *step.newId) : changeBaud(context, *step.newBaud);
-    if (!found)
-        return tl::unexpected(found.error());
-    result.moved = *found;
-    return result;
-}
-
-JournalEntry outcomeOf(const UndoStep &step, const Result<UndoResult> &result)
-{
-    JournalEntry outcome = step.entry;
-    if (!result) {
-        outcome.state = stateAfter(result.error());
-        outcome.note = result.error().text;
-        return outcome;
-    }
-    outcome.state = JournalState::Done;
-    if (result->registers.missing != Consent::None) {
-        outcome.state = JournalState::Failed;
-        outcome.note = result->registers.why;
-        return outcome;
-    }
-    if (result->moved) {
-        outcome.movedTo = JournalPlace{result->moved->id, result->moved->baudRate};
-        outcome.changes.front().shown = outcome.changes.front().after;
-        return outcome;
-    }
-    for (RegisterChange &change : outcome.changes)
-        change.shown = bytesIn(result->registers.after, change.address, change.after.size());
-    QStringList notes;
-    if (result->registers.torqueTurnedOff)
-        notes << tr("torque was turned off for it");
-    if (result->registers.torqueStaysOff)
-        notes << tr("torque stays off");
-    for (const LeftRegister &left : result->registers.left) {
-        notes << left.why;
-        if (left.what.address == outcome.changes.front().address)
-            outcome.state = JournalState::Unconfirmed; // not undone
-    }
-    outcome.note = notes.join(QStringLiteral("; "));
-    return outcome;
 }
 
 } // namespace dynascope
