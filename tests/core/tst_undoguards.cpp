@@ -108,6 +108,65 @@ private slots:
         QCOMPARE(virtualBus.simulated.servo(1, UndoRate)->value(u"Goal Position"), 2304);
     }
 
+    void aLineThatNamesTheWrongPlace_data()
+    {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<int>("address");
+        QTest::addColumn<int>("before");
+        QTest::addColumn<int>("after");
+        QTest::addColumn<QString>("why");
+        const QString absent = u"Entry 1 names a register that is not there"_s;
+        QTest::newRow("ID on Torque Enable") << u"ID"_s << 64 << 3 << 1 << absent;
+        QTest::newRow("Baud Rate on Torque Enable") << u"Baud Rate"_s << 64 << 3 << 1 << absent;
+        QTest::newRow("broadcast") << u"ID"_s << 7 << 254 << 1
+                                   << u"Entry 1 speaks of ID 254, which no device can have"_s;
+        QTest::newRow("torque in disguise") << u"LED"_s << 64 << 1 << 0 << u"Entry 1 would switch torque on"_s;
+        QTest::newRow("torque as Status Return Level")
+            << u"Status Return Level"_s << 64 << 1 << 0 << u"Entry 1 would switch torque on"_s;
+    }
+    void aLineThatNamesTheWrongPlace()
+    {
+        QFETCH(QString, name);
+        QFETCH(int, address);
+        QFETCH(int, before);
+        QFETCH(int, after);
+        QFETCH(QString, why);
+        UndoWorld world(m_catalog);
+        world.open();
+        const qint64 number = world.note(
+            1, {change(name, address, {static_cast<std::uint8_t>(before)}, {static_cast<std::uint8_t>(after)})});
+        QCOMPARE(world.revert({number}), why);
+        QCOMPARE(world.value(1, u"Torque Enable"), 0);
+    }
+
+    /// By its address alone, Indirect Data is still what it points at.
+    void indirectDataByItsAddress()
+    {
+        UndoWorld world(m_catalog);
+        world.open();
+        QVERIFY(world.write(1, u"Indirect Address 1", 64));
+        const qint64 one = world.note(1, {change({}, 224, {1}, {0})});
+        QVERIFY(world.revert({one}).contains(u"would come under torque"_s));
+        const qint64 two = world.note(1, {change({}, 224, {1, 0}, {0, 0})});
+        QCOMPARE(world.revert({two}),
+                 u"Entry %1 was written through indirect addresses: write its registers yourself"_s.arg(two));
+        QCOMPARE(world.value(1, u"Torque Enable"), 0);
+    }
+
+    void aSideEffectTakesNothingBack()
+    {
+        JournalEntry write, undo;
+        write.number = 1;
+        write.changes = {change(u"Operating Mode"_s, 11, {3}, {4}), change(u"Goal PWM"_s, 100, {1, 0}, {2, 0})};
+        undo.number = 2;
+        undo.undoes = 1;
+        undo.changes = {write.changes.back()};
+        write.state = undo.state = JournalState::Done;
+        QVERIFY(undoneEntries({write, undo}).empty());
+        undo.changes = {write.changes.front()};
+        QVERIFY(undoneEntries({write, undo}).contains(1));
+    }
+
 private:
     UndoStep planned(const UndoWorld &world, qint64 number) const
     {
