@@ -13,6 +13,7 @@ target_sources(dynascope_core PRIVATE
     session/journal/journalwrites.cpp session/journal/journalwrites.h
     session/journal/undo.cpp session/journal/undo.h
     session/journal/undoplan.cpp session/journal/undoplan.h
+    session/journal/undostep.cpp
     session/journal/undosequence.cpp session/journal/undosequence.h
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h

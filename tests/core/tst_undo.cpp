@@ -1,76 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/session/journal/undo.h"
 #include "tests/support/builtincatalog.h"
-#include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
+#include "tests/support/undoworld.h"
 
 #include <random>
 
 using namespace dynascope;
+using test::UndoRate, test::UndoWorld;
 using namespace Qt::StringLiterals;
 
 namespace {
-
-constexpr int Rate = 57600;
-
-struct World {
-    explicit World(const Catalog &catalog, const QString &servos = u"XM430-W350@57600:1,XL430-W250@57600:2"_s)
-        : all(catalog, servos, &journal), undo(all.session, all.commands)
-    {
-    }
-
-    void open(int baudRate = Rate)
-    {
-        all.open(baudRate);
-        for (const auto &device : all.line->devices())
-            (void)run([&](const auto &done) { all.commands.readAll(*device, done); });
-    }
-    Device &device(int id, int baudRate = Rate)
-    {
-        Device *found = all.line->deviceAt(static_cast<std::uint8_t>(id), baudRate);
-        if (!found)
-            qFatal("no device %d at %d", id, baudRate);
-        return *found;
-    }
-    Result<void> run(const std::function<void(const Commands::Done &)> &order)
-    {
-        std::optional<Result<void>> result;
-        order([&](const Result<void> &outcome) { result = outcome; });
-        if (!VirtualSession::waitFor([&] { return result.has_value(); }))
-            return failure(ErrorKind::NothingReceived, u"hung"_s);
-        return *result;
-    }
-    Result<void> write(int id, QStringView field, std::int64_t raw)
-    {
-        return run([&](const auto &done) {
-            all.commands.writeField(device(id), device(id).table().indexOf(field), raw, done);
-        });
-    }
-    Result<void> torque(int id, bool on)
-    {
-        return run([&](const auto &done) { all.commands.setTorque({&device(id)}, on, done); });
-    }
-    /// Empty: done.
-    QString revert(std::vector<qint64> numbers, Direction direction = Direction::Undo, const UndoOptions &options = {})
-    {
-        const auto result = run([&](const auto &done) { undo.run(numbers, direction, options, done); });
-        return result ? QString() : result.error().text;
-    }
-    /// What a servo really holds; the line is closed for it and opened again.
-    std::int64_t value(int id, QStringView field, int baudRate = Rate)
-    {
-        all.close();
-        sim::Servo *servo = all.factory.simulated.servo(id, baudRate);
-        const std::int64_t raw = servo ? servo->value(field) : -1;
-        all.open(baudRate);
-        return raw;
-    }
-    qint64 last() const { return journal.entries().back().number; }
-
-    Journal journal;
-    VirtualSession all;
-    Undo undo;
-};
 
 using Image = std::map<std::pair<int, QString>, std::int64_t>; ///< by servo and register
 
@@ -134,7 +73,7 @@ class TestUndo : public QObject
 private slots:
     void oneAndBack()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Moving Threshold", 33));
         const qint64 number = world.last();
@@ -157,7 +96,7 @@ private slots:
 
     void aModeWithItsGains()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Position P Gain", 111));
         QVERIFY(world.write(1, u"Profile Velocity", 222));
@@ -174,7 +113,7 @@ private slots:
 
     void whatChangedMeanwhile()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Moving Threshold", 33)); // 1
         QVERIFY(world.write(1, u"Moving Threshold", 44)); // 2
@@ -188,15 +127,15 @@ private slots:
         QVERIFY(world.write(2, u"LED", 1));
         const qint64 led = world.last();
         world.all.close();
-        world.all.factory.simulated.servo(2, Rate)->write(u"LED", 0); // as after a power cut
-        world.all.open(Rate);
+        world.all.factory.simulated.servo(2, UndoRate)->write(u"LED", 0); // as after a power cut
+        world.all.open(UndoRate);
         QCOMPARE(world.revert({led}), QString()); // it is as it was: nothing to do
         QCOMPARE(world.undo.nextToRedo(), led);
     }
 
     void anotherDevice()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Moving Threshold", 33));
         JournalEntry changed = world.journal.entries().back();
@@ -217,7 +156,7 @@ private slots:
 
     void placesAreFollowed()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Moving Threshold", 33)); // 1
         QVERIFY(
@@ -237,7 +176,7 @@ private slots:
 
     void torqueAndMotionAreExplicit()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         UndoOptions off, moves;
         off.mayTurnTorqueOff = true;
@@ -267,7 +206,7 @@ private slots:
 
     void aGoalThatTurnedTorqueOn()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         UndoOptions all{true, true};
         QVERIFY(world.write(1, u"Drive Mode", 8));       // 1
@@ -291,7 +230,7 @@ private slots:
 
     void stopEndsIt()
     {
-        World world(m_catalog);
+        UndoWorld world(m_catalog);
         world.open();
         QVERIFY(world.write(1, u"Moving Threshold", 33));
         world.all.stop.press();
@@ -305,7 +244,7 @@ private slots:
     void cutOffAnywhere()
     {
         for (int at = 1; at < 200; ++at) {
-            World world(m_catalog, u"XM430-W350@57600:1"_s);
+            UndoWorld world(m_catalog, u"XM430-W350@57600:1"_s);
             world.open();
             QVERIFY(world.write(1, u"Position P Gain", 111));
             QVERIFY(world.write(1, u"Operating Mode", 1));
@@ -314,19 +253,19 @@ private slots:
             const Image after = imageOf(world.all.factory.simulated);
             int packets = 0;
             world.all.factory.isLost = [&](ByteView) { return ++packets > at; };
-            world.all.open(Rate);
+            world.all.open(UndoRate);
             const QString failed = world.revert({number});
             world.all.close();
             world.all.factory.isLost = {};
-            const std::int64_t gain = world.all.factory.simulated.servo(1, Rate)->value(u"Position P Gain");
+            const std::int64_t gain = world.all.factory.simulated.servo(1, UndoRate)->value(u"Position P Gain");
             QVERIFY2(gain == 111 || gain == 800, qPrintable(QString::number(gain)));
-            const std::int64_t mode = world.all.factory.simulated.servo(1, Rate)->value(u"Operating Mode");
+            const std::int64_t mode = world.all.factory.simulated.servo(1, UndoRate)->value(u"Operating Mode");
             QVERIFY(mode == 1 || mode == 3);
             if (failed.isEmpty()) {
                 QVERIFY(at > 10);
                 return;
             }
-            world.all.open(Rate);
+            world.all.open(UndoRate);
             const QString again = world.revert({number});
             QVERIFY2(again.isEmpty(), qPrintable(u"after packet %1: %2"_s.arg(at).arg(again)));
             QCOMPARE(world.value(1, u"Position P Gain"), 111);
@@ -346,7 +285,7 @@ private slots:
         QFETCH(int, seed);
         constexpr int Writes = 200;
         std::mt19937 random(static_cast<unsigned>(seed));
-        World world(m_catalog, u"XM430-W350@57600:1,XL430-W250@57600:2,XL330-M288@57600:3"_s);
+        UndoWorld world(m_catalog, u"XM430-W350@57600:1,XL430-W250@57600:2,XL330-M288@57600:3"_s);
         const Image before = imageOf(world.all.factory.simulated);
         world.open();
         for (int done = 0, tries = 0; done < Writes; ++tries) {

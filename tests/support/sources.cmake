@@ -15,6 +15,7 @@ target_sources(dynascope_test_support PRIVATE
     support/sessionfixture.h
     support/simclient.h
     support/testmain.cpp support/testmain.h
+    support/undoworld.h
 )
 if(UNIX)
     target_sources(dynascope_test_support PRIVATE

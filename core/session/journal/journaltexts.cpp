@@ -43,6 +43,8 @@ QString commandOf(const JournalEntry &entry)
     const QString id = QString::number(entry.device.id);
     switch (entry.kind) {
     case JournalKind::Write:
+        if (entry.changes.empty())
+            return begin + QStringLiteral("write ") + id;
         return begin + QStringLiteral("write %1 %2").arg(id, quoted(assignment(entry.changes.front())));
     case JournalKind::Reboot: return begin + QStringLiteral("reboot ") + id;
     case JournalKind::FactoryReset: return begin + QStringLiteral("reset %1 %2").arg(quoted(entry.note), id);
@@ -58,8 +60,11 @@ bool mayBeRepeated(const JournalEntry &entry)
 {
     if (entry.kind == JournalKind::Reboot)
         return true;
-    const RegisterChange *main = entry.kind == JournalKind::Write ? &entry.changes.front() : nullptr;
-    return main && (main->name != nameOf(Known::TorqueEnable) || main->after.front() == 0);
+    if (entry.kind != JournalKind::Write || entry.changes.empty())
+        return false;
+    const RegisterChange *main = &entry.changes.front(); // by its address alone it may be torque or a goal
+    return !main->name.isEmpty() && !main->after.empty()
+           && (main->name != nameOf(Known::TorqueEnable) || main->after.front() == 0);
 }
 
 } // namespace
@@ -76,7 +81,7 @@ QString valueText(const Catalog &catalog, const JournalDevice &device, const Reg
 
 QString whatText(const JournalEntry &entry)
 {
-    if (entry.kind != JournalKind::Write)
+    if (entry.kind != JournalKind::Write || entry.changes.empty())
         return wordOf(entry.kind);
     const auto others = static_cast<int>(entry.changes.size()) - 1;
     if (others == 0)
@@ -86,7 +91,7 @@ QString whatText(const JournalEntry &entry)
 
 QString changeText(const Catalog &catalog, const JournalEntry &entry)
 {
-    if (entry.kind != JournalKind::Write)
+    if (entry.kind != JournalKind::Write || entry.changes.empty())
         return oneLine(entry.note);
     const RegisterChange &main = entry.changes.front();
     return QStringLiteral("%1 → %2").arg(valueText(catalog, entry.device, main, main.before),

@@ -3,7 +3,6 @@
 
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
-#include "core/session/procedures/atbaud.h"
 #include "core/table/catalog.h"
 
 #include <QCoreApplication>
@@ -76,8 +75,8 @@ RevertRegister revertRegister(const RegisterChange &change, Direction direction,
         one.isLocked = one.isLocked || field.needsTorqueOff();
         one.mayWait = one.mayWait && !isIndirectData(field);
     }
-    const Field *only = table ? table->find(change.name) : nullptr;
-    if (only && isIndirectData(*only)) {
+    const Field *only = table ? table->at(change.address) : nullptr; // written by its address it has no name
+    if (only && only->size == change.after.size() && isIndirectData(*only)) {
         const Field *pointer =
             table->find(QString(only->name).replace(QLatin1String("Data"), QLatin1String("Address")));
         if (pointer && pointer->size == 2)
@@ -94,6 +93,14 @@ bool hidesTorqueOn(const RevertRegister &one, const ControlTable *table)
         return false;
     const int at = torque->address - one.address;
     return at >= 0 && at < static_cast<int>(one.to.size()) && one.to[static_cast<std::size_t>(at)] != 0;
+}
+
+/// Several Indirect Data at once may be anything, torque too.
+bool leadsNobodyKnowsWhere(const RevertRegister &one, const RegisterChange &change, const ControlTable *table)
+{
+    return table && !one.indirectAddress && std::ranges::any_of(table->fields(), [&](const Field &field) {
+               return overlaps(field, change) && isIndirectData(field);
+           });
 }
 
 /// What a write of `main` may change and didn't then: putting it back may.
@@ -136,8 +143,15 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
 {
     const RegisterChange &main = entry.changes.front();
     const bool isId = isRegister(main, Known::Id);
+    const Field *field = table ? table->find(isId ? Known::Id : Known::BaudRate) : nullptr;
+    if (!field || field->address != main.address || field->size != 1 || main.before.size() != 1
+        || main.after.size() != 1)
+        return failure(ErrorKind::InvalidArgument, tr("Entry %1 names a register that is not there").arg(entry.number));
     const int wanted = step.direction == Direction::Undo ? main.before.front() : main.after.front();
     const int held = step.direction == Direction::Undo ? main.after.front() : main.before.front();
+    if (isId && wanted > MaximumId)
+        return failure(ErrorKind::InvalidArgument,
+                       tr("Entry %1 speaks of ID %2, which no device can have").arg(entry.number).arg(wanted));
     const auto rate = [table](int code) { return table ? table->baudRate(code) : std::nullopt; };
     const std::optional<int> heldRate = rate(held), wantedRate = rate(wanted);
     if (isId ? step.place.id != held : step.place.baudRate != heldRate.value_or(0)) {
@@ -158,6 +172,14 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
         return failure(ErrorKind::NotSupported, tr("It isn't known which baud rate %1 is").arg(wanted));
     }
     return step;
+}
+
+/// A side effect that was put back later, by itself, takes nothing back.
+bool isAboutTheSame(const JournalEntry *taken, const JournalEntry &by)
+{
+    return !taken
+           || (!taken->changes.empty() && !by.changes.empty()
+               && taken->changes.front().address == by.changes.front().address);
 }
 
 /// A later entry that stands and changed the same register of the same device; 0: none. Torque is not taken back
@@ -194,9 +216,9 @@ std::set<qint64> undoneEntries(const JournalEntries &entries)
     for (const JournalEntry &entry : entries) {
         if (entry.state != JournalState::Done)
             continue;
-        if (entry.undoes > 0)
+        if (entry.undoes > 0 && isAboutTheSame(find(entries, entry.undoes), entry))
             undone.insert(entry.undoes);
-        if (entry.redoes > 0)
+        if (entry.redoes > 0 && isAboutTheSame(find(entries, entry.redoes), entry))
             undone.erase(entry.redoes);
     }
     return undone;
@@ -223,7 +245,7 @@ qint64 nextToRedo(const JournalEntries &entries, const QString &run)
             return 0; // something new since
         if (entry->undoes > 0 && entry->state == JournalState::Done && undone.contains(entry->undoes)) {
             const JournalEntry *taken = find(entries, entry->undoes);
-            if (taken && !wouldSwitchOn(*taken, Direction::Redo))
+            if (taken && isRevertible(*taken) && !wouldSwitchOn(*taken, Direction::Redo))
                 return taken->number;
         }
     }
@@ -231,6 +253,11 @@ qint64 nextToRedo(const JournalEntries &entries, const QString &run)
 }
 
 QString whyNot(const JournalEntries &entries, qint64 number, Direction direction)
+{
+    return whyNot(entries, undoneEntries(entries), number, direction);
+}
+
+QString whyNot(const JournalEntries &entries, const std::set<qint64> &undone, qint64 number, Direction direction)
 {
     const JournalEntry *entry = find(entries, number);
     if (!entry)
@@ -245,7 +272,7 @@ QString whyNot(const JournalEntries &entries, qint64 number, Direction direction
         return tr("Entry %1 failed and changed nothing").arg(number);
     if (!isRevertible(*entry))
         return tr("Entry %1 does not know what it replaced").arg(number);
-    const bool isUndone = undoneEntries(entries).contains(number);
+    const bool isUndone = undone.contains(number);
     if (isUndone && direction == Direction::Undo)
         return tr("Entry %1 is undone already").arg(number);
     if (!isUndone && direction == Direction::Redo)
@@ -281,6 +308,9 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
         return failure(ErrorKind::InvalidArgument, why);
     const JournalEntry &entry = *find(entries, number);
     const JournalPlace place = placeNow(entries, entry);
+    if (place.id < 0 || place.id > MaximumId)
+        return failure(ErrorKind::InvalidArgument,
+                       tr("Entry %1 speaks of ID %2, which no device can have").arg(number).arg(place.id));
     const ControlTablePtr table = catalog.find(entry.device.modelNumber, entry.device.firmware);
     UndoStep step;
     step.number = number;
@@ -309,86 +339,24 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
         plan.registers.push_back(revertRegister(change, direction, table.get()));
         if (hidesTorqueOn(plan.registers.back(), table.get()))
             return failure(ErrorKind::InvalidArgument, tr("Entry %1 would switch torque on").arg(number));
+        if (leadsNobodyKnowsWhere(plan.registers.back(), change, table.get()))
+            return failure(
+                ErrorKind::NotSupported,
+                tr("Entry %1 was written through indirect addresses: write its registers yourself").arg(number));
     }
     keepOthers(plan, main, table.get());
-    plan.readsNothing = isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    const Field *level = table ? table->find(Known::StatusReturnLevel) : nullptr;
+    plan.readsNothing = level && level->address == main.address && level->size == main.after.size()
+                        && isRegister(main, Known::StatusReturnLevel) && plan.registers.front().from.front() == 0;
+    if (plan.readsNothing) { // what the others hold isn't known, so nothing is written to them
+        plan.kept.clear();
+        plan.registers.resize(1);
+    }
     plan.changedSince = direction == Direction::Undo ? changedSince(entries, entry) : 0;
     plan.goals = table ? spansOf(*table, step.place.id, isGoal) : std::vector<Span>();
     plan.mayMove = options.mayMove;
     plan.mayTurnTorqueOff = options.mayTurnTorqueOff;
     return step;
-}
-
-Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
-{
-    UndoResult result;
-    if (!step.newId && !step.newBaud) {
-        auto reverted = revert(context, step.registers);
-        if (!reverted)
-            return tl::unexpected(reverted.error());
-        result.registers = std::move(*reverted);
-        return result;
-    }
-    const auto there = look(context, step.place);
-    if (!there)
-        return tl::unexpected(there.error());
-    if (there->modelNumber != step.place.modelNumber || there->firmware != step.entry.device.firmware) {
-        return failure(ErrorKind::NotFound, tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
-                                                .arg(step.place.id)
-                                                .arg(step.place.baudRate)
-                                                .arg(step.place.name));
-    }
-    const bool mayTurnOff = step.newId ? step.newId->turnTorqueOff : step.newBaud->turnTorqueOff;
-    if (step.registers.torqueAddress && !mayTurnOff) {
-        const AtBaud here(context.bus(), step.place.baudRate);
-        const auto torque = read(context.bus(), {step.place.id, *step.registers.torqueAddress, 1});
-        if (torque && torque->data.front() != 0) {
-            result.registers.missing = Consent::TorqueOff;
-            result.registers.why =
-                tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(step.place.name);
-            return result;
-        }
-    }
-    auto found = step.newId ? changeId(context, *step.newId) : changeBaud(context, *step.newBaud);
-    if (!found)
-        return tl::unexpected(found.error());
-    result.moved = *found;
-    return result;
-}
-
-JournalEntry outcomeOf(const UndoStep &step, const Result<UndoResult> &result)
-{
-    JournalEntry outcome = step.entry;
-    if (!result) {
-        outcome.state = stateAfter(result.error());
-        outcome.note = result.error().text;
-        return outcome;
-    }
-    outcome.state = JournalState::Done;
-    if (result->registers.missing != Consent::None) {
-        outcome.state = JournalState::Failed;
-        outcome.note = result->registers.why;
-        return outcome;
-    }
-    if (result->moved) {
-        outcome.movedTo = JournalPlace{result->moved->id, result->moved->baudRate};
-        outcome.changes.front().shown = outcome.changes.front().after;
-        return outcome;
-    }
-    for (RegisterChange &change : outcome.changes)
-        change.shown = bytesIn(result->registers.after, change.address, change.after.size());
-    QStringList notes;
-    if (result->registers.torqueTurnedOff)
-        notes << tr("torque was turned off for it");
-    if (result->registers.torqueStaysOff)
-        notes << tr("torque stays off");
-    for (const LeftRegister &left : result->registers.left) {
-        notes << left.why;
-        if (left.what.address == outcome.changes.front().address)
-            outcome.state = JournalState::Unconfirmed; // not undone
-    }
-    outcome.note = notes.join(QStringLiteral("; "));
-    return outcome;
 }
 
 } // namespace dynascope

@@ -25,6 +25,8 @@ qint64 nextToUndo(const JournalEntries &entries, const QString &run = {});
 qint64 nextToRedo(const JournalEntries &entries, const QString &run = {});
 /// Why this entry can't be undone or redone at all, before any device is asked; empty: it can.
 QString whyNot(const JournalEntries &entries, qint64 number, Direction direction);
+/// The same for many: `undone` is what undoneEntries() says.
+QString whyNot(const JournalEntries &entries, const std::set<qint64> &undone, qint64 number, Direction direction);
 
 /// Where the device of this entry stands now, by the changes of ID and baud rate since.
 JournalPlace placeNow(const JournalEntries &entries, const JournalEntry &entry);

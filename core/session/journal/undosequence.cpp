@@ -136,6 +136,8 @@ void UndoSequence::take(const UndoStep &step, const Result<UndoResult> &result)
         left.step.registers.unchecked = {each.what.address};
         std::erase_if(left.step.entry.changes,
                       [&](const RegisterChange &change) { return change.address != each.what.address; });
+        if (left.step.entry.changes.empty()) // one only kept: the entry that is undone has no word of it
+            left.step.entry.changes = {{each.what.name, each.what.address, false, {}, each.what.to, {}}};
         m_left.try_emplace({place, each.what.address}, std::move(left)); // one only kept replaces none that waits
     }
 }

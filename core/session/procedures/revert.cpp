@@ -167,6 +167,11 @@ private:
         if (!torque)
             return tl::unexpected(torque.error());
         m_torque = torque->data.front() != 0;
+        return readDriveMode();
+    }
+
+    Result<void> readDriveMode()
+    {
         if (!m_plan.driveModeAddress)
             return {};
         const auto mode = read(m_bus, {m_plan.place.id, *m_plan.driveModeAddress, 1});
@@ -197,6 +202,8 @@ private:
                     tr("Putting %1 of %2 back would switch its torque on").arg(each.name, m_plan.place.name));
             m_endsTorque = m_endsTorque || (each.isTorque && each.to.front() == 0 && m_torque);
         }
+        if (!m_plan.torqueAddress && moves && !m_plan.mayMove)
+            needs(Consent::Motion, tr("Nobody knows whether %1 would move").arg(m_plan.place.name));
         if (!m_torque)
             return {};
         if ((locked || m_endsTorque) && !m_plan.mayTurnTorqueOff) {
@@ -248,6 +255,10 @@ private:
                 return tl::unexpected(now.error());
             if (now->data == each.to)
                 return {};
+        }
+        if (each.isGoal && !m_torque) { // an earlier one of the plan may have written it
+            if (const auto mode = readDriveMode(); !mode)
+                return mode;
         }
         if (each.isGoal && !m_torque && m_goalWakes) {
             m_result.left.push_back({each, tr("%1 of %2 is left as it is, since writing it would turn torque on")
