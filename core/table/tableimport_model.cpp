@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/table/tableimporter.h"
 
+#include "core/table/controltable.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -95,6 +97,13 @@ void TableImporter::applyUnits()
         takeUnit(*field, it->value, it->unit, it->line);
     }
     for (Field &field : m_model.fields) {
+        // Files of X have no row for it: [type info] says what their positions are.
+        const QString name = normalizedName(field.name);
+        if (m_model.resolution > 0 && field.size == 4 && !m_units.contains(field.name)
+            && (name == u"goalposition" || name == u"presentposition")) {
+            field.isSigned = true;
+            field.unit = Unit::Pulse;
+        }
         if (field.unit == Unit::Pulse && m_model.resolution <= 0) {
             field.unit = Unit::None;
             field.scale = 1;
