@@ -182,7 +182,13 @@ QString Catalog::insert(const ModelPtr &model, int replaces)
             [&](const QString &name) { return other->names.contains(name); });
         const bool numbered = hasNumber(other->info, info.modelNumber)
                               || (info.modbusNumber >= 0 && hasNumber(other->info, info.modbusNumber));
-        if (named || numbered) {
+        // "replaces" would not help: the number isn't this one's.
+        if (named && !numbered) {
+            return QStringLiteral("%1: this name is taken by %2 (number %3); give another name")
+                .arg(info.model, other->info.model)
+                .arg(other->info.modelNumber);
+        }
+        if (numbered) {
             return QStringLiteral("%1: this name or the number %2 is taken by %3; \"replaces\": %2 takes its place")
                 .arg(info.model)
                 .arg(info.modelNumber)

@@ -15,7 +15,8 @@ target_sources(dynascope_core PRIVATE
     table/tablebuilder.cpp table/tablebuilder.h table/tablebuilder_checks.cpp
     table/tablefault.h
     table/tablefile.cpp table/tablefile.h
-    table/tableimport.cpp table/tableimport.h
+    table/tableimport.cpp table/tableimport.h table/tableimport_csv.cpp table/tableimport_model.cpp
+    table/tableimporter.h
     table/tablemerge.cpp table/tablemerge.h
     table/tableoutline.cpp table/tableoutline.h
     table/tablewriter.cpp table/tablewriter.h

@@ -117,7 +117,7 @@ private slots:
         row("\"number\": 7", "\"number\": 7, \"extends\": \"x\"", "T-1: unknown key \"extends\"");
         row("https:", "ftp:", "T-1: \"manual\" must be an https address");
         row("\"T-1\": {", "\"t_1\": { \"number\": 8, \"manual\": \"https://example.org\" }, \"T-1\": {",
-            "T-1: this name or the number 7 is taken by t_1; \"replaces\": 7 takes its place");
+            "T-1: this name is taken by t_1 (number 8); give another name");
         row("\"T-1\": {", "\"T-2\": { \"number\": 7, \"manual\": \"https://example.org\" }, \"T-1\": {",
             "T-1: this name or the number 7 is taken by T-2; \"replaces\": 7 takes its place");
         row("\"models\": {", "\"models\": [], \"model\": {", "unknown key \"model\"");

@@ -83,6 +83,9 @@ private slots:
         // What the file doesn't say nobody guesses: the program won't write such a register by itself.
         QVERIFY(velocity->area == Area::Unknown && velocity->mayBeTried() && !velocity->isWritable());
         QVERIFY(table->find(u"Present Current")->unit == Unit::None);
+        // X has no row for the unit of its positions: what they are [type info] says.
+        const Field *position = table->find(u"Present Position");
+        QVERIFY(position->isSigned && position->unit == Unit::Pulse);
         QVERIFY(!table->description().doubt.isEmpty());
         QCOMPARE(imported->notes.size(), 3);
         QVERIFY(imported->notes[0].startsWith(u"line 20: Profile Time is left out: it lies where Profile Velocity is"));

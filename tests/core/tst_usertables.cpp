@@ -106,7 +106,9 @@ private slots:
         const QString wrong =
             QStringLiteral("line 7: %1: \"replaces\" must be the number of this model and of one that is there");
         QTest::newRow("its number") << model("Own", 1020) << taken.arg(QStringLiteral("Own")).arg(1020);
-        QTest::newRow("its name") << model("xm430 w350", 9001) << taken.arg(QStringLiteral("xm430 w350")).arg(9001);
+        QTest::newRow("its name")
+            << model("xm430 w350", 9001)
+            << QStringLiteral("line 7: xm430 w350: this name is taken by XM430-W350 (number 1020); give another name");
         QTest::newRow("its number in Modbus mode")
             << model("Own", 4001)
             << QStringLiteral(
@@ -118,9 +120,7 @@ private slots:
         QTest::newRow("nobody's") << model("Own", 9001, ", \"replaces\": 9001") << wrong.arg(QStringLiteral("Own"));
         QTest::newRow("its number, another's name")
             << model("XM430-W210", 1020, ", \"replaces\": 1020")
-            << QStringLiteral(
-                   "line 7: XM430-W210: this name or the number 1020 is taken by XM430-W210; \"replaces\": 1020 "
-                   "takes its place");
+            << QStringLiteral("line 7: XM430-W210: this name is taken by XM430-W210 (number 1030); give another name");
     }
 
     void shadowing()
