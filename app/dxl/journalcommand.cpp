@@ -130,6 +130,7 @@ Result<std::vector<qint64>> chosen(const JournalWork &work, Direction direction)
 {
     const JournalOptions &options = work.options.journal;
     const JournalEntries &entries = work.journal.entries();
+    const std::set<qint64> undone = undoneEntries(entries);
     std::vector<qint64> numbers;
     if (options.last) {
         const qint64 next = direction == Direction::Undo ? nextToUndo(entries) : nextToRedo(entries);
@@ -141,14 +142,14 @@ Result<std::vector<qint64>> chosen(const JournalWork &work, Direction direction)
     }
     for (const JournalOptions::Range &range : options.ranges) {
         if (range.isOne) {
-            if (const QString why = whyNot(entries, range.from, direction); !why.isEmpty())
+            if (const QString why = whyNot(entries, undone, range.from, direction); !why.isEmpty())
                 return failure(ErrorKind::InvalidArgument, why);
             numbers.push_back(range.from);
             continue;
         }
         for (const JournalEntry &entry : entries) {
             if (entry.number >= range.from && entry.number <= range.to
-                && whyNot(entries, entry.number, direction).isEmpty())
+                && whyNot(entries, undone, entry.number, direction).isEmpty())
                 numbers.push_back(entry.number);
         }
     }

@@ -108,6 +108,7 @@ private slots:
         QTRY_VERIFY(m_world->dialog("undoBox"));
         auto *accept = m_world->dialog("undoBox")->findChild<QPushButton *>(u"undoAnywayButton"_s);
         QCOMPARE(accept->text(), u"Let it move"_s);
+        QVERIFY(!accept->isDefault()); // Return moves nothing
         QTest::mouseClick(accept, Qt::LeftButton);
         QTRY_VERIFY(m_world->raw(u"Goal Position") != 2100);
         QCOMPARE(m_world->raw(u"Torque Enable"), 1);

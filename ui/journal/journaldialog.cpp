@@ -87,11 +87,13 @@ void JournalDialog::restoreSelection()
 void JournalDialog::update()
 {
     const std::vector<qint64> numbers = selected();
+    const JournalEntries &entries = m_workbench.journal->entries();
+    const std::set<qint64> undone = undoneEntries(entries);
     const auto offer = [&](QPushButton &button, Direction direction) {
         QString why = numbers.empty() ? tr("Select entries first") : QString();
         for (const qint64 number : numbers) {
             if (why.isEmpty())
-                why = whyNot(m_workbench.journal->entries(), number, direction);
+                why = whyNot(entries, undone, number, direction);
         }
         button.setEnabled(why.isEmpty() && !m_workbench.undo->isBusy());
         button.setToolTip(why);

@@ -78,10 +78,13 @@ void UndoActions::ask(const std::vector<qint64> &numbers, Direction direction, c
     const bool moves = m_workbench.undo->missing() == Consent::Motion;
     QPushButton *accept = box->addButton(moves ? tr("Let it move") : tr("Turn torque off"), QMessageBox::AcceptRole);
     accept->setObjectName(QStringLiteral("undoAnywayButton"));
+    box->setDefaultButton(QMessageBox::Cancel);
     connect(accept, &QPushButton::clicked, this, [this, numbers, direction, options] {
+        const JournalEntries &entries = m_workbench.journal->entries();
+        const std::set<qint64> undone = undoneEntries(entries);
         std::vector<qint64> left;
         for (const qint64 number : numbers) {
-            if (whyNot(m_workbench.journal->entries(), number, direction).isEmpty())
+            if (whyNot(entries, undone, number, direction).isEmpty())
                 left.push_back(number);
         }
         start(left, direction, options);
