@@ -165,7 +165,9 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
     if (!known)
         return;
     JournalEntry entry = *known;
-    const bool isContinued = m_drag == number && m_dragUnsaved;
+    // Its first write has ended already: this is another one of the same drag, which may be over meanwhile.
+    const bool isContinued = isOneGoal(entry) && known->state != JournalState::Begun;
+    const bool goesOn = m_drag == number;
     entry.state = outcome.state;
     entry.movedTo = outcome.movedTo;
     entry.note = outcome.note;
@@ -188,14 +190,18 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
         entry.changes = outcome.changes;
     }
     const QDateTime now = m_now();
-    m_dragAt = now;
-    if (isContinued && m_dragSaved.msecsTo(now) < std::chrono::milliseconds(SaveInterval).count()) {
+    if (goesOn)
+        m_dragAt = now;
+    if (isContinued && goesOn && m_dragSaved.msecsTo(now) < std::chrono::milliseconds(SaveInterval).count()) {
         place(entry);
+        m_dragUnsaved = true;
         m_dragEnd.start();
     } else {
         store(entry, false);
-        m_dragSaved = now;
-        m_dragUnsaved = m_dragUnsaved && m_drag != number;
+        if (goesOn) {
+            m_dragSaved = now;
+            m_dragUnsaved = false;
+        }
     }
     emit entriesChanged();
 }
