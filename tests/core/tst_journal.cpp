@@ -295,6 +295,39 @@ private slots:
         QCOMPARE(Journal(folder.path()).entries(), journal.entries());
     }
 
+    void aLeapOfNumbersIsDamage()
+    {
+        const QTemporaryDir folder;
+        Journal journal(folder.path());
+        note(journal, writeEntry(u"LED"_s, 65, {0}, {1}));
+        append(folder.filePath(u"journal-000001.jsonl"_s), goodLine().replace("\"n\":1", "\"n\":1000000000") + '\n');
+        QCOMPARE(note(journal, writeEntry(u"LED"_s, 65, {1}, {0})), 2);
+        QCOMPARE(Journal(folder.path()).entries(), journal.entries());
+    }
+
+    void whatWasRemovedIsReadAnew_data()
+    {
+        QTest::addColumn<bool>("isRemoved");
+        QTest::newRow("removed") << true;
+        QTest::newRow("cut off") << false;
+    }
+    void whatWasRemovedIsReadAnew()
+    {
+        QFETCH(bool, isRemoved);
+        const QTemporaryDir folder;
+        const JournalFile::Bounds bounds{2048, 3, 2048};
+        Journal window(folder.path(), Journal::Reading::All, bounds);
+        for (int i = 0; i < 10; ++i)
+            note(window, writeEntry(u"LED"_s, 65, {0}, {1}));
+        for (const QString &file : filesIn(folder.path())) {
+            QVERIFY(isRemoved ? QFile::remove(folder.filePath(file)) : QFile::resize(folder.filePath(file), 0));
+        }
+        append(folder.filePath(isRemoved ? u"journal-000001.jsonl"_s : filesIn(folder.path()).constLast()),
+               goodLine().replace("\"n\":1", "\"n\":11") + '\n');
+        window.refresh();
+        QCOMPARE(window.entries().size(), std::size_t(11));
+    }
+
 private:
     static QByteArray goodLine()
     {

@@ -13,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto DragPause = 1500ms;    ///< a goal written later than that is another order
+constexpr qint64 LargestLeap = 1'000'000; ///< from one entry to the next
 constexpr auto SaveInterval = 1000ms; ///< of a drag that goes on
 
 bool isOneGoal(const JournalEntry &entry)
@@ -82,7 +83,11 @@ void Journal::refresh()
 void Journal::take(const QByteArray &line)
 {
     auto entry = journalEntryFromJson(line);
-    if (entry) // what is damaged says nothing
+    if (!entry) // what is damaged says nothing
+        return;
+    // Numbers go up by ones: a leap is damage, and the next ones would soon be beyond what any reader takes.
+    const qint64 last = m_entries.empty() ? LargestJournalNumber / 2 : m_entries.back().number;
+    if (entry->number <= last + LargestLeap)
         place(std::move(*entry));
 }
 
