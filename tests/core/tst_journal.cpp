@@ -269,6 +269,65 @@ private slots:
         QTRY_COMPARE(Journal(folder.path()).entries().back().changes.front().after[0], 63); // by itself, after a while
     }
 
+    void aDragThatIsInterruptedInFlight_data()
+    {
+        QTest::addColumn<int>("inFlight");
+        QTest::newRow("one write") << 1;
+        QTest::newRow("two writes") << 2;
+    }
+    void aDragThatIsInterruptedInFlight()
+    {
+        QFETCH(int, inFlight);
+        const QTemporaryDir folder;
+        Journal journal(folder.path());
+        const auto goal = [](std::uint8_t from, std::uint8_t to) {
+            return writeEntry(u"Goal Position"_s, 116, {from, 0, 0, 0}, {to, 0, 0, 0});
+        };
+        note(journal, goal(0, 1));
+        for (int i = 1; i <= inFlight; ++i)
+            QCOMPARE(journal.begin(goal(std::uint8_t(i), std::uint8_t(i + 1))), 1);
+        const qint64 other = journal.begin(writeEntry(u"LED"_s, 65, {0}, {1})); // STOP, another device, a click
+        for (int i = 1; i <= inFlight; ++i)
+            journal.finish(1, doneWith(goal(std::uint8_t(i), std::uint8_t(i + 1))));
+        journal.finish(other, doneWith(writeEntry(u"LED"_s, 65, {0}, {1})));
+        QCOMPARE(journal.entry(1)->changes.front().before, Bytes({0, 0, 0, 0}));
+        QCOMPARE(journal.entry(1)->changes.front().after[0], inFlight + 1);
+        QCOMPARE(Journal(folder.path()).entries(), journal.entries());
+    }
+
+    void aLeapOfNumbersIsDamage()
+    {
+        const QTemporaryDir folder;
+        Journal journal(folder.path());
+        note(journal, writeEntry(u"LED"_s, 65, {0}, {1}));
+        append(folder.filePath(u"journal-000001.jsonl"_s), goodLine().replace("\"n\":1", "\"n\":1000000000") + '\n');
+        QCOMPARE(note(journal, writeEntry(u"LED"_s, 65, {1}, {0})), 2);
+        QCOMPARE(Journal(folder.path()).entries(), journal.entries());
+    }
+
+    void whatWasRemovedIsReadAnew_data()
+    {
+        QTest::addColumn<bool>("isRemoved");
+        QTest::newRow("removed") << true;
+        QTest::newRow("cut off") << false;
+    }
+    void whatWasRemovedIsReadAnew()
+    {
+        QFETCH(bool, isRemoved);
+        const QTemporaryDir folder;
+        const JournalFile::Bounds bounds{2048, 3, 2048};
+        Journal window(folder.path(), Journal::Reading::All, bounds);
+        for (int i = 0; i < 10; ++i)
+            note(window, writeEntry(u"LED"_s, 65, {0}, {1}));
+        for (const QString &file : filesIn(folder.path())) {
+            QVERIFY(isRemoved ? QFile::remove(folder.filePath(file)) : QFile::resize(folder.filePath(file), 0));
+        }
+        append(folder.filePath(isRemoved ? u"journal-000001.jsonl"_s : filesIn(folder.path()).constLast()),
+               goodLine().replace("\"n\":1", "\"n\":11") + '\n');
+        window.refresh();
+        QCOMPARE(window.entries().size(), std::size_t(11));
+    }
+
 private:
     static QByteArray goodLine()
     {

@@ -13,6 +13,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto DragPause = 1500ms;    ///< a goal written later than that is another order
+constexpr qint64 LargestLeap = 1'000'000; ///< from one entry to the next
 constexpr auto SaveInterval = 1000ms; ///< of a drag that goes on
 
 bool isOneGoal(const JournalEntry &entry)
@@ -82,7 +83,11 @@ void Journal::refresh()
 void Journal::take(const QByteArray &line)
 {
     auto entry = journalEntryFromJson(line);
-    if (entry) // what is damaged says nothing
+    if (!entry) // what is damaged says nothing
+        return;
+    // Numbers go up by ones: a leap is damage, and the next ones would soon be beyond what any reader takes.
+    const qint64 last = m_entries.empty() ? LargestJournalNumber / 2 : m_entries.back().number;
+    if (entry->number <= last + LargestLeap)
         place(std::move(*entry));
 }
 
@@ -165,7 +170,9 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
     if (!known)
         return;
     JournalEntry entry = *known;
-    const bool isContinued = m_drag == number && m_dragUnsaved;
+    // Its first write has ended already: this is another one of the same drag, which may be over meanwhile.
+    const bool isContinued = isOneGoal(entry) && known->state != JournalState::Begun;
+    const bool goesOn = m_drag == number;
     entry.state = outcome.state;
     entry.movedTo = outcome.movedTo;
     entry.note = outcome.note;
@@ -188,14 +195,18 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
         entry.changes = outcome.changes;
     }
     const QDateTime now = m_now();
-    m_dragAt = now;
-    if (isContinued && m_dragSaved.msecsTo(now) < std::chrono::milliseconds(SaveInterval).count()) {
+    if (goesOn)
+        m_dragAt = now;
+    if (isContinued && goesOn && m_dragSaved.msecsTo(now) < std::chrono::milliseconds(SaveInterval).count()) {
         place(entry);
+        m_dragUnsaved = true;
         m_dragEnd.start();
     } else {
         store(entry, false);
-        m_dragSaved = now;
-        m_dragUnsaved = m_dragUnsaved && m_drag != number;
+        if (goesOn) {
+            m_dragSaved = now;
+            m_dragUnsaved = false;
+        }
     }
     emit entriesChanged();
 }

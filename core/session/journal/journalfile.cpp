@@ -56,6 +56,10 @@ Result<std::unique_ptr<QLockFile>> JournalFile::lock()
 void JournalFile::read(const std::function<void(const QByteArray &)> &take)
 {
     std::vector<int> there = numbers();
+    if (there.empty() || there.back() < m_number) { // somebody removed what was read
+        m_number = 0;
+        m_offset = 0;
+    }
     if (m_number == 0 && there.size() > static_cast<std::size_t>(m_bounds.files))
         there.erase(there.begin(), there.end() - m_bounds.files); // whoever put them there
     for (const int number : there) {
@@ -89,6 +93,8 @@ bool JournalFile::readFile(int number, const std::function<void(const QByteArray
     // Not ours where it is much longer than we let one become: the newest part is enough.
     const qint64 longest = m_bounds.fileSize + 2 * m_bounds.lineLength;
     bool skipping = false;
+    if (file.size() < m_offset) // it was cut off, or is another one
+        m_offset = 0;
     if (file.size() - m_offset > longest) {
         m_offset = file.size() - longest;
         skipping = true; // begins somewhere in a line
@@ -113,7 +119,7 @@ Result<void> JournalFile::append(const QByteArray &line)
     if (QFile(path(number)).size() >= m_bounds.fileSize)
         ++number;
     QFile file(path(number));
-    if (!file.open(QIODevice::ReadWrite))
+    if (!file.open(QIODevice::ReadWrite | QIODevice::Append))
         return unwritable(file.fileName(), file.errorString());
     QByteArray text = line + '\n';
     if (const qint64 size = file.size(); size > 0) {
@@ -124,8 +130,8 @@ Result<void> JournalFile::append(const QByteArray &line)
     }
     if (file.write(text) != text.size() || !file.flush())
         return unwritable(file.fileName(), file.errorString());
-    if (number == m_number && m_offset + text.size() == file.pos())
-        m_offset = file.pos(); // ours needn't be read again
+    if (number == m_number && m_offset + text.size() == file.size())
+        m_offset = file.size(); // ours needn't be read again
     for (const int old : there) {
         if (old <= number - m_bounds.files)
             QFile::remove(path(old));
