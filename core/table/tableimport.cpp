@@ -27,6 +27,10 @@ std::vector<CellRow> TableImporter::rows(const QByteArray &text, QChar separator
         say(all.back().line, QStringLiteral("more than %1 lines").arg(MostRows));
         all.clear();
     }
+    // Remarks of people; no register's row begins so.
+    all.erase(
+        std::remove_if(all.begin(), all.end(), [](const CellRow &row) { return row.cells.value(0).startsWith(u'#'); }),
+        all.end());
     return all;
 }
 
@@ -55,14 +59,17 @@ void TableImporter::add(const Field &field, int line, bool aliasesAllowed)
         const QString owner = m_owners.value(address);
         if (owner.isEmpty())
             continue;
-        if (aliasesAllowed)
+        if (aliasesAllowed) {
+            m_aliases.insert(field.name, line);
             return note(
                 QStringLiteral("line %1: %2 is left out: it lies where %3 is").arg(line).arg(field.name, owner));
+        }
         return say(line, QStringLiteral("%1: overlaps %2").arg(field.name, owner));
     }
     if (m_names.contains(normalizedName(field.name)))
         return say(line, QStringLiteral("%1: stands twice").arg(field.name));
     m_names.insert(normalizedName(field.name));
+    m_lines.insert(field.name, line);
     for (int address = field.address; address < field.end(); ++address)
         m_owners.insert(address, field.name);
     m_model.fields.push_back(field);
@@ -96,8 +103,24 @@ Result<ImportedTable> TableImporter::finished()
     Catalog alone;
     const Result<void> added = alone.add(table.json, m_fileName);
     if (!added)
-        return failure(ErrorKind::BadFile, added.error().text + QStringLiteral(" (line of what was made of it)"));
+        return failure(ErrorKind::BadFile, inItsOwnLine(added.error().text, table.json));
     return table;
+}
+
+/// What is said of a line of the table that was made, said of the line it was made of.
+QString TableImporter::inItsOwnLine(const QString &error, const QByteArray &json) const
+{
+    const QString before = m_fileName + QStringLiteral(": line ");
+    if (!error.startsWith(before))
+        return error;
+    const QString rest = error.sliced(before.size());
+    const qsizetype digits = rest.indexOf(u':');
+    const QByteArray made = json.split('\n').value(rest.left(digits).toInt() - 1).trimmed();
+    for (auto it = m_lines.constBegin(); it != m_lines.constEnd(); ++it) {
+        if (made.startsWith('"' + it.key().toUtf8() + "\":"))
+            return before + QString::number(it.value()) + rest.mid(digits);
+    }
+    return error + QStringLiteral(" (line of what was made of it)");
 }
 
 void TableImporter::say(int line, const QString &what)
@@ -119,8 +142,11 @@ Result<ImportedTable> importCsv(const QByteArray &text, const QString &fileName,
 
 Result<ImportedTable> importTable(const QByteArray &text, const QString &fileName, const ImportOptions &options)
 {
-    const bool sections = text.left(200).trimmed().startsWith('[');
-    return sections ? importModelFile(text, fileName, options) : importCsv(text, fileName, options);
+    const QByteArray mark = "\xEF\xBB\xBF"; // some editors put it in front of UTF-8
+    const QByteArray bare = text.startsWith(mark) ? text.mid(mark.size()) : text;
+    const bool sections =
+        fileName.endsWith(QStringLiteral(".model"), Qt::CaseInsensitive) || bare.left(200).trimmed().startsWith('[');
+    return sections ? importModelFile(bare, fileName, options) : importCsv(bare, fileName, options);
 }
 
 } // namespace dynascope

@@ -27,7 +27,7 @@ Result<ImportedTable> importModelFile(const QByteArray &text, const QString &fil
 /// A CSV with a header of: address, size, name, and any of area, access, initial, min, max, unit, scale, signed.
 Result<ImportedTable> importCsv(const QByteArray &text, const QString &fileName, const ImportOptions &options);
 
-/// Which of the two it is, by its first line.
+/// Which of the two it is, by its name or its first line. Lines that begin with "#" are remarks, in both.
 Result<ImportedTable> importTable(const QByteArray &text, const QString &fileName, const ImportOptions &options);
 
 } // namespace dynascope

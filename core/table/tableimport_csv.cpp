@@ -43,7 +43,10 @@ void TableImporter::csvRow(const CellRow &row, const QStringList &header)
         static_cast<std::uint16_t>(number(cell(u"address"), 0, 65535, QStringLiteral("the address"), row.line));
     field.size = static_cast<std::uint8_t>(number(cell(u"size"), 1, 4, QStringLiteral("the size"), row.line));
     field.name = cell(u"name");
-    field.isSigned = cell(u"signed") == u"1";
+    const QString sign = cell(u"signed").toLower();
+    field.isSigned = sign == u"1" || sign == u"yes" || sign == u"true";
+    if (!field.isSigned && !sign.isEmpty() && sign != u"0" && sign != u"no" && sign != u"false")
+        say(row.line, QStringLiteral("%1: \"%2\" is neither 1 nor 0, which signed must be").arg(field.name, sign));
     const QString area = cell(u"area").toUpper(), access = cell(u"access").toUpper();
     field.area = area == u"EEPROM"   ? Area::Eeprom
                  : area == u"RAM"    ? Area::Ram
@@ -60,19 +63,38 @@ void TableImporter::csvRow(const CellRow &row, const QStringList &header)
         field.initial = number(initial, -Most, Most, QStringLiteral("the initial value"), row.line);
     field.minimum = bound(cell(u"min"), row.line);
     field.maximum = bound(cell(u"max"), row.line);
+    if (field.minimum.isSet() != field.maximum.isSet()) {
+        note(QStringLiteral("line %1: the range of %2 is left out: min and max must both be there")
+                 .arg(row.line)
+                 .arg(field.name));
+    }
+    csvUnit(row, header, field);
+    add(field, row.line, false);
+}
+
+void TableImporter::csvUnit(const CellRow &row, const QStringList &header, Field &field)
+{
+    const auto cell = [&](const char16_t *name) { return row.cells.value(header.indexOf(QStringView(name))); };
+    const QString scaleText = cell(u"scale");
+    bool ok = true;
+    const double scale = scaleText.isEmpty() ? 1.0 : scaleText.toDouble(&ok);
+    if (!ok || !(scale >= 1e-9 && scale <= 1e9)) {
+        return say(
+            row.line,
+            QStringLiteral("%1: the scale is \"%2\"; it must be a number from 1e-9 to 1e9").arg(field.name, scaleText));
+    }
     QString unit = cell(u"unit");
     unit.remove(u'^');
     if (const std::optional<Unit> known = unitFromTable(unit)) {
         field.unit = *known;
-        bool ok = false;
-        const double scale = cell(u"scale").toDouble(&ok);
-        field.scale = ok ? scale : 1.0;
+        field.scale = scale;
     } else if (!unit.isEmpty()) {
         note(QStringLiteral("line %1: %2 stays a bare number: the unit %3 isn't known here")
                  .arg(row.line)
                  .arg(field.name, unit));
+    } else if (scale != 1.0) {
+        note(QStringLiteral("line %1: the scale of %2 is left out: it has no unit").arg(row.line).arg(field.name));
     }
-    add(field, row.line, false);
 }
 
 Bound TableImporter::bound(const QString &text, int line)

@@ -19,7 +19,7 @@ Result<ImportedTable> TableImporter::fromModel(const QByteArray &text)
         if (first.startsWith(u'[')) {
             section = first.toLower();
             header.clear();
-        } else if (header.isEmpty()) {
+        } else if (header.isEmpty() && !section.isEmpty()) {
             header = row.cells.mid(0, MostColumns); // names the columns
         } else if (section == u"[type info]") {
             typeInfo(row, zero, lowest, lowestRadian);
@@ -55,12 +55,17 @@ void TableImporter::typeInfo(const CellRow &row, double &zero, double &lowest, d
 void TableImporter::unitInfo(const CellRow &row, const QStringList &header)
 {
     const auto cell = [&](const char16_t *name) { return row.cells.value(header.indexOf(QStringView(name))); };
+    if (row.cells.size() < 3)
+        return say(row.line, QStringLiteral("needs name, value and unit, with tabs between"));
     UnitRow unit;
     unit.line = row.line;
     bool ok = false;
     unit.value = cell(u"value").toDouble(&ok);
     unit.unit = cell(u"unit");
-    unit.isSigned = cell(u"Sign Type").startsWith(u"signed", Qt::CaseInsensitive);
+    const QString sign = cell(u"Sign Type").toLower();
+    unit.isSigned = sign == u"signed";
+    if (!unit.isSigned && !sign.isEmpty() && sign != u"unsigned")
+        return say(row.line, QStringLiteral("the sign type is \"%1\"; it must be signed or unsigned").arg(sign));
     if (!ok || !std::isfinite(unit.value))
         return say(row.line, QStringLiteral("\"%1\" is no number").arg(cell(u"value")));
     const double offset = cell(u"Offset").toDouble();
@@ -87,6 +92,13 @@ void TableImporter::applyUnits()
     for (auto it = m_units.constBegin(); it != m_units.constEnd(); ++it) {
         const auto field = std::find_if(m_model.fields.begin(), m_model.fields.end(),
                                         [&](const Field &candidate) { return candidate.name == it.key(); });
+        if (field == m_model.fields.end() && m_aliases.contains(it.key())) {
+            note(QStringLiteral("line %1: the unit of %2 is left out, as the register is: see line %3")
+                     .arg(it->line)
+                     .arg(it.key())
+                     .arg(m_aliases[it.key()]));
+            continue;
+        }
         if (field == m_model.fields.end()) {
             note(QStringLiteral("line %1: the unit of %2 is left out: no such register follows")
                      .arg(it->line)
@@ -115,10 +127,23 @@ void TableImporter::takeUnit(Field &field, double value, const QString &unit, in
 {
     constexpr double RevPerMin = 60 / (2 * std::numbers::pi);
     const QString plain = unit.toLower();
-    if (plain == u"rad" && value > 0) {
+    if (!(value > 0)) {
+        return note(
+            QStringLiteral("line %1: %2 stays a bare number: its scale isn't above 0").arg(line).arg(field.name));
+    }
+    if (plain == u"rad") {
         // Radians for a step are steps for a turn.
+        const int steps = static_cast<int>(std::min(1e8, std::round(2 * std::numbers::pi / value)));
         if (m_model.resolution == 0)
-            m_model.resolution = static_cast<int>(std::min(1e8, std::round(2 * std::numbers::pi / value)));
+            m_model.resolution = steps;
+        // A table has one resolution. Values are rounded: what is nearly the same is the same.
+        if (std::abs(steps - m_model.resolution) > m_model.resolution / 200.0) {
+            return note(QStringLiteral("line %1: %2 stays a bare number: it has %3 steps a turn, the others %4")
+                            .arg(line)
+                            .arg(field.name)
+                            .arg(steps)
+                            .arg(m_model.resolution));
+        }
         field.unit = Unit::Pulse;
         return;
     }

@@ -32,12 +32,14 @@ private:
     void takeUnit(Field &field, double value, const QString &unit, int line);
     void controlRow(const CellRow &row);
     void csvRow(const CellRow &row, const QStringList &header);
+    void csvUnit(const CellRow &row, const QStringList &header, Field &field);
     Bound bound(const QString &text, int line);
     std::int64_t number(const QString &text, std::int64_t low, std::int64_t high, const QString &what, int line);
     void add(const Field &field, int line, bool aliasesAllowed);
     void applyUnits();
     Result<ImportedTable> finished();
-    void note(const QString &text) { m_notes.append(text); }
+    void note(const QString &text) { m_notes.append(QStringLiteral("%1: %2").arg(m_fileName, text)); }
+    QString inItsOwnLine(const QString &error, const QByteArray &json) const;
     void say(int line, const QString &what);
     QString modelName() const;
 
@@ -53,7 +55,9 @@ private:
     WrittenModel m_model;
     QMap<QString, UnitRow> m_units; ///< by register
     QSet<QString> m_names;          ///< normalized
+    QHash<QString, int> m_lines;    ///< in which each register stands
     QHash<int, QString> m_owners;   ///< registers by the addresses of their bytes
+    QHash<QString, int> m_aliases;  ///< left out, and where they stand
     QStringList m_notes;
     QString m_wrong;
 };

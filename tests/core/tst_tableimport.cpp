@@ -88,7 +88,11 @@ private slots:
         QVERIFY(position->isSigned && position->unit == Unit::Pulse);
         QVERIFY(!table->description().doubt.isEmpty());
         QCOMPARE(imported->notes.size(), 3);
-        QVERIFY(imported->notes[0].startsWith(u"line 20: Profile Time is left out: it lies where Profile Velocity is"));
+        QCOMPARE(imported->notes[0],
+                 QStringLiteral("xq_1.model: line 20: Profile Time is left out: it lies where Profile Velocity is"));
+        QCOMPARE(imported->notes[2],
+                 QStringLiteral("xq_1.model: line 13: the unit of Profile Time is left out, as the register is: "
+                                "see line 20"));
     }
 
     void aCsv()
@@ -101,6 +105,12 @@ private slots:
         QVERIFY(goal->area == Area::Hybrid && goal->isSigned && goal->minimum.negated && goal->scale == 2.69);
         QVERIFY(table->find(u"Profile Acceleration")->unit == Unit::RevPerMin2);
         QCOMPARE(imported->notes, QStringList());
+    }
+
+    void signedInWords()
+    {
+        const auto imported = importTable(replaced(Csv, "2.69,1", "2.69,Yes"), QStringLiteral("xq_1.csv"), {});
+        QVERIFY(imported && tableOf(*imported)->find(u"Goal Current")->isSigned);
     }
 
     /// Every complete table of the library, written as CSV and read again, is the same.
@@ -130,6 +140,67 @@ private slots:
         }
     }
 
+    void notes_data()
+    {
+        QTest::addColumn<QByteArray>("text");
+        QTest::addColumn<QString>("note");
+        const QByteArray row = "Profile Time\t0.001\ts\tunsigned\n";
+        QTest::newRow("another resolution")
+            << replaced(Model, row, "Present Position\t0.0007669904\trad\tsigned\n")
+            << QStringLiteral(
+                   "line 13: Present Position stays a bare number: it has 8192 steps a turn, the others 4096");
+        QTest::newRow("negative scale")
+            << replaced(Model, "0.0239691227", "-0.0239691227")
+            << QStringLiteral("line 11: Present Velocity stays a bare number: its scale isn't above 0");
+        QTest::newRow("negative angle")
+            << replaced(Model, row, "Present Position\t-0.0015\trad\tsigned\n")
+            << QStringLiteral("line 13: Present Position stays a bare number: its scale isn't above 0");
+        QTest::newRow("no such register")
+            << replaced(Model, "Profile Time\t0.001", "Profile Tide\t0.001")
+            << QStringLiteral("line 13: the unit of Profile Tide is left out: no such register follows");
+        QTest::newRow("half a range")
+            << replaced(Csv, ",100,0,1193", ",100,,1193")
+            << QStringLiteral("line 3: the range of Current Limit is left out: min and max must both be there");
+        QTest::newRow("scale of nothing")
+            << replaced(Csv, "1193,mA,", "1193,,")
+            << QStringLiteral("line 3: the scale of Current Limit is left out: it has no unit");
+    }
+
+    /// Nothing is left out in silence.
+    void notes()
+    {
+        QFETCH(QByteArray, text);
+        QFETCH(QString, note);
+        const auto imported = importTable(text, QStringLiteral("f"), {{}, 1999});
+        QVERIFY2(imported, imported ? "" : qPrintable(imported.error().text));
+        QVERIFY2(imported->notes.contains(QStringLiteral("f: ") + note), qPrintable(imported->notes.join(u'\n')));
+    }
+
+    void readers_data()
+    {
+        QTest::addColumn<QByteArray>("text");
+        QTest::addColumn<QString>("file");
+        QTest::addColumn<QString>("message"); // empty: accepted
+        const QByteArray mark = "\xEF\xBB\xBF";
+        QTest::newRow("model with a byte order mark") << mark + Model << QStringLiteral("f") << QString();
+        QTest::newRow("CSV with a byte order mark") << mark + Csv << QStringLiteral("f") << QString();
+        QTest::newRow("model behind a remark") << "# mine\n" + Model << QStringLiteral("f.MODEL") << QString();
+        QTest::newRow("CSV behind a remark") << "# mine\n" + Csv << QStringLiteral("f.csv") << QString();
+        QTest::newRow("no model at all")
+            << QByteArray("\x7f"
+                          "ELF")
+            << QStringLiteral("f.model")
+            << QStringLiteral("f.model: line 1: not within [type info], [unit info] or [control table]");
+    }
+
+    void readers()
+    {
+        QFETCH(QByteArray, text);
+        QFETCH(QString, file);
+        const auto imported = importTable(text, file, {{}, 1999});
+        QTEST(imported ? QString() : imported.error().text, "message");
+    }
+
     void whatCannotBe_data()
     {
         QTest::addColumn<QByteArray>("text");
@@ -143,13 +214,16 @@ private slots:
                                          << QStringLiteral("f: ") + QString::fromUtf8(message);
         };
         model("7\t1\tID", "7\t1", "line 18: needs address, size and name, with tabs between");
+        model("Profile Time\t0.001\ts", "Profile Time 0.001 s",
+              "line 13: needs name, value and unit, with tabs between");
+        model("s\tunsigned", "s\tsinged", "line 13: the sign type is \"singed\"; it must be signed or unsigned");
+        csv("2.69,1", "2.69,maybe", "line 4: Goal Current: \"maybe\" is neither 1 nor 0, which signed must be");
+        csv("2.69", "abc", "line 3: Current Limit: the scale is \"abc\"; it must be a number from 1e-9 to 1e9");
         model("7\t1\tID", "x\t1\tID", "line 18: the address is \"x\"; it must be a number from 0 to 65535");
         model("7\t1\tID", "7\t3\tID", "line 18: ID: the size must be 1, 2 or 4");
         model("7\t1\tID", "7\t1\tModel-Number", "line 18: Model-Number: stands twice");
         model("7\t1\tID", "7\t1\tI\"D", "line 18: \"I\"D\" is not a name for a register");
-        model("7\t1\tID", "65535\t2\tID",
-              "line 12: OWN: ID: \"address\" must be a number from 0 to 65534 "
-              "(line of what was made of it)");
+        model("7\t1\tID", "65535\t2\tID", "line 18: OWN: ID: \"address\" must be a number from 0 to 65534");
         model("0.0239691227", "fast", "line 11: \"fast\" is no number");
         model("[control table]", "[table]", "line 17: not within [type info], [unit info] or [control table]");
         csv("address,", "place,",
@@ -162,11 +236,8 @@ private slots:
         csv("1999", "", "the number of the model isn't in it: give --number");
         csv(",100,0,1193", ",100,0,-", "line 3: \"-\" is neither a number nor a register");
         csv("-Current Limit", "-Torque Limit",
-            "line 7: F: Goal Current: limited by Torque Limit, which is no other "
-            "register (line of what was made of it)");
-        csv(",100,0,1193", ",100,0,50",
-            "line 6: F: Current Limit: initial value 100 lies outside the range (line of what "
-            "was made of it)");
+            "line 4: F: Goal Current: limited by Torque Limit, which is no other register");
+        csv(",100,0,1193", ",100,0,50", "line 3: F: Current Limit: initial value 100 lies outside the range");
         QTest::newRow("nothing") << QByteArray() << QStringLiteral("f: there is no register in it");
         QTest::newRow("header alone") << QByteArray("address,size,name\n")
                                       << QStringLiteral("f: there is no register in it");
