@@ -17,12 +17,14 @@ namespace dynascope::dxl {
 namespace {
 
 /// Only where it has one that is in use: 253 and above stand for none.
-int secondaryIdOf(const Work &work, const Found &found, const ControlTable &table)
+Result<int> secondaryIdOf(const Work &work, const Found &found, const ControlTable &table)
 {
     const Field *field = table.find(Known::SecondaryId);
     if (!field)
         return -1;
     const auto raw = read(work.bus, {found.id, field->address, 1});
+    if (!raw && raw.error().kind != ErrorKind::Refused)
+        return tl::unexpected(raw.error());
     return raw && raw->data.front() <= MaximumId ? raw->data.front() : -1;
 }
 
@@ -46,7 +48,13 @@ Result<void> findAt(const Work &work, int baudRate, std::vector<MoveDevice> &dev
                                .arg(QString::number(found.id), QString::number(baudRate), found.doubt));
         MoveDevice device = table ? moveDevice(found, *table, name) : MoveDevice();
         if (table) {
-            device.secondaryId = secondaryIdOf(work, found, *table);
+            const auto secondary = secondaryIdOf(work, found, *table);
+            if (!secondary) {
+                return failure(secondary.error().kind,
+                               QStringLiteral("the Secondary ID of %1 could not be read: %2; nothing was written")
+                                   .arg(name, secondary.error().text));
+            }
+            device.secondaryId = *secondary;
         } else { // may stay, but nobody knows its registers
             device.place.id = found.id;
             device.place.baudRate = found.baudRate;
