@@ -194,6 +194,29 @@ ExitCode perform(const Work &work, MovePlan plan, const MoveFile &file)
     return code;
 }
 
+/// Where a register is, is for the control table to say, not for a file that may be damaged.
+Result<void> takeTables(MovePlan &plan, const Catalog &catalog)
+{
+    for (MoveDevice &device : plan.devices) {
+        const ControlTablePtr table = catalog.find(device.place.modelNumber, device.firmware);
+        if (!table)
+            return failure(ErrorKind::InvalidArgument,
+                           QStringLiteral("the plan that was left names model %1, which has no control table; nothing "
+                                          "was written").arg(device.place.modelNumber));
+        Found found;
+        found.id = static_cast<std::uint8_t>(device.place.id);
+        found.baudRate = device.place.baudRate;
+        found.modelNumber = static_cast<std::uint16_t>(device.place.modelNumber);
+        found.firmware = static_cast<std::uint8_t>(device.firmware);
+        const MoveDevice known = moveDevice(found, *table, device.place.name);
+        device.idAddress = known.idAddress;
+        device.baudAddress = known.baudAddress;
+        device.rates = known.rates;
+        device.place = known.place;
+    }
+    return {};
+}
+
 } // namespace
 
 ExitCode moveCommand(const Work &work)
@@ -209,6 +232,8 @@ ExitCode moveCommand(const Work &work)
         auto left = file.load();
         if (!left)
             return work.output.refuse(left.error());
+        if (const auto known = takeTables(*left, work.catalog); !known)
+            return work.output.refuse(known.error());
         left->turnTorqueOff = left->turnTorqueOff || options.turnTorqueOff;
         return perform(work, std::move(*left), file);
     }
