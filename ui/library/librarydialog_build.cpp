@@ -27,7 +27,7 @@ namespace dynascope {
 namespace {
 
 constexpr int DetailsHeight = 190;
-constexpr std::array RegisterWidths{60, 140, 42, 78, 62, 62, 120, 84, 72};
+constexpr std::array RegisterWidths{66, 140, 42, 78, 62, 62, 120, 84, 72};
 constexpr std::array ResultWidths{200, 110, 46, 120, 120};
 
 /// These take what is left of the width.
@@ -162,7 +162,7 @@ void LibraryDialog::addKeys()
 /// Limits and units have more room in a wide window.
 void LibraryDialog::resizeEvent(QResizeEvent *event)
 {
-    m_registerView->setColumnWidth(RegisterModel::Range, std::clamp(width() * 2 / 9 - 60, 130, 300));
+    m_registerView->setColumnWidth(RegisterModel::Range, std::clamp(width() * 3 / 5 - 446, 120, 300));
     m_registerView->setColumnWidth(RegisterModel::UnitColumn, std::clamp(width() / 9, 84, 124));
     QDialog::resizeEvent(event);
 }
