@@ -246,7 +246,13 @@ void MotionRegisters::publish()
     setSigned(m_registers, Reg::PresentCurrent, state.current);
     setSigned(m_registers, Reg::PresentLoad, state.load);
     setSigned(m_registers, Reg::PresentVelocity, state.velocity);
-    m_registers.set(Reg::PresentPosition, toPresent(state.position));
+    std::int64_t position = toPresent(state.position);
+    // Two bytes without a sign (XL-320) count within one turn.
+    if (const Field *field = m_registers.field(Reg::PresentPosition); field && field->size == 2 && !field->isSigned) {
+        const std::int64_t turn = m_registers.table().resolution();
+        position = ((position % turn) + turn) % turn;
+    }
+    m_registers.set(Reg::PresentPosition, position);
     m_registers.set(Reg::VelocityTrajectory, state.velocityTrajectory);
     m_registers.set(Reg::PositionTrajectory, toPresent(state.positionTrajectory));
     m_registers.set(Reg::PresentInputVoltage, raw(Reg::PresentInputVoltage, Unit::Volt, state.inputVoltage));

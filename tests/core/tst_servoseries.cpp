@@ -85,6 +85,8 @@ private slots:
         const bool isXl320 = goal == u"Moving Speed";
         const auto present = m_bench.value(isXl320 ? u"Present Speed" : u"Present Velocity");
         QVERIFY(qAbs(present - raw) < 0.03 * qAbs(raw) + 2);
+        if (isXl320) // after some turns
+            QVERIFY2(m_bench.value(u"Present Position") < 1300, "its position counts within one turn");
         QVERIFY(!m_bench.servo().hasAlert());
     }
 
