@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/modelscommand.h"
 
+#include "app/dxl/showvalue.h"
 #include "core/table/tableimport.h"
 #include "core/table/units.h"
 #include "core/table/usertables.h"
@@ -49,24 +50,6 @@ ExitCode list(const Catalog &catalog, Output &output)
     return ExitCode::Done;
 }
 
-QString areaText(Area area)
-{
-    switch (area) {
-    case Area::Eeprom: return QStringLiteral("EEPROM");
-    case Area::Ram: return QStringLiteral("RAM");
-    case Area::Hybrid: return QStringLiteral("HYBRID");
-    case Area::Unknown: break;
-    }
-    return QStringLiteral("?");
-}
-
-QString accessText(Access access)
-{
-    return access == Access::ReadWrite ? QStringLiteral("RW")
-           : access == Access::Read    ? QStringLiteral("R")
-                                       : QStringLiteral("?");
-}
-
 QString boundText(const Bound &bound)
 {
     if (bound.number)
@@ -96,8 +79,8 @@ Document registerDocument(const Field &field)
         .add("address", qint64(field.address))
         .add("size", qint64(field.size))
         .addFlag("signed", field.isSigned)
-        .add("area", areaText(field.area))
-        .add("access", accessText(field.access));
+        .add("area", areaName(field.area))
+        .add("access", accessName(field.access));
     if (field.initial)
         document.add("initial", qint64(*field.initial));
     if (field.minimum.isSet())
@@ -118,8 +101,8 @@ QString registerLine(const Field &field)
     QString line = QStringLiteral("%1 %2 %3 %4 %5")
                        .arg(field.address, 5)
                        .arg((field.isSigned ? QStringLiteral("-") : QString()) + QString::number(field.size), 2)
-                       .arg(areaText(field.area), -6)
-                       .arg(accessText(field.access), -2)
+                       .arg(areaName(field.area), -6)
+                       .arg(accessName(field.access), -2)
                        .arg(field.name, -32);
     QStringList more;
     if (field.initial)

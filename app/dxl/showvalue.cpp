@@ -110,4 +110,25 @@ Error withWayOut(const Error &error, const Device &device)
     return {error.kind, error.text + QStringLiteral("; write status_return_level=1 first")};
 }
 
+QString areaName(Area area)
+{
+    switch (area) {
+    case Area::Eeprom: return QStringLiteral("EEPROM");
+    case Area::Ram: return QStringLiteral("RAM");
+    case Area::Hybrid: return QStringLiteral("HYBRID");
+    case Area::Unknown: break;
+    }
+    return QStringLiteral("?");
+}
+
+QString accessName(Access access)
+{
+    switch (access) {
+    case Access::Read: return QStringLiteral("R");
+    case Access::ReadWrite: return QStringLiteral("RW");
+    case Access::Unknown: break;
+    }
+    return QStringLiteral("?");
+}
+
 } // namespace dynascope::dxl

@@ -7,6 +7,9 @@
 
 namespace dynascope::dxl {
 
+QString areaName(Area area);       ///< "EEPROM"; "?" where it isn't known
+QString accessName(Access access); ///< "R", "RW"; "?" where it isn't known
+
 /// {"id":1,"field":"Present Position","address":132,"raw":2048,"value":180.0,"unit":"deg"}
 Document fieldDocument(const Device &device, const Field &field, const EffectiveField &units, std::int64_t raw);
 /// "Present Position = 2048 (180.00 °)", or that document.

@@ -9,24 +9,6 @@ namespace dynascope::dxl {
 
 namespace {
 
-QString areaName(Area area)
-{
-    switch (area) {
-    case Area::Eeprom: return QStringLiteral("EEPROM");
-    case Area::Ram: return QStringLiteral("RAM");
-    case Area::Hybrid: return QStringLiteral("HYBRID");
-    case Area::Unknown: break;
-    }
-    return QStringLiteral("?");
-}
-
-QString accessName(const Field &field)
-{
-    if (field.mayBeTried())
-        return QStringLiteral("?");
-    return field.isWritable() ? QStringLiteral("RW") : QStringLiteral("R");
-}
-
 /// The factory's value is said of what a person may have changed.
 bool isChanged(const Reading &reading)
 {
@@ -37,7 +19,7 @@ bool isChanged(const Reading &reading)
 QStringList rowOf(Device &device, const Reading &reading)
 {
     const Field &field = *reading.field;
-    QStringList row{QString::number(field.address), QString::number(field.size), accessName(field), field.name};
+    QStringList row{QString::number(field.address), QString::number(field.size), accessName(field.access), field.name};
     if (!reading.raw)
         return row << QStringLiteral("-") << QString() << reading.error;
     const QString number = QString::number(*reading.raw);
@@ -78,7 +60,7 @@ Document tableDocument(Device &device, const std::vector<Reading> &readings)
             one.add("id", qint64(device.id())).add("field", field.name).add("address", qint64(field.address));
             one.add("error", reading.error);
         }
-        one.add("size", qint64(field.size)).add("area", areaName(field.area)).add("access", accessName(field));
+        one.add("size", qint64(field.size)).add("area", areaName(field.area)).add("access", accessName(field.access));
         if (field.initial)
             one.add("initial", qint64(*field.initial));
         registers.push_back(one);
