@@ -48,14 +48,7 @@ QString stem(const QString &name)
 
 Catalog::ModelInfo infoOf(const TableOutline::Model &model, TableOutline::Facts facts)
 {
-    if (model.own.series)
-        facts.series = model.own.series;
-    if (model.own.newestFirmware)
-        facts.newestFirmware = model.own.newestFirmware;
-    if (model.own.modbusNumberOffset)
-        facts.modbusNumberOffset = model.own.modbusNumberOffset;
-    if (model.own.addressesOnly)
-        facts.addressesOnly = model.own.addressesOnly;
+    facts.lay(model.own);
     Catalog::ModelInfo info;
     info.modelNumber = static_cast<std::uint16_t>(model.number);
     info.model = model.name;

@@ -92,13 +92,7 @@ TableFile::TableFile(QString name, QByteArray json, TableOutline outline, std::s
 TableOutline::Facts TableFile::shared() const
 {
     TableOutline::Facts facts = m_base ? m_base->shared() : TableOutline::Facts();
-    facts.series = m_outline.shared.series ? m_outline.shared.series : facts.series;
-    if (m_outline.shared.newestFirmware)
-        facts.newestFirmware = m_outline.shared.newestFirmware;
-    if (m_outline.shared.modbusNumberOffset)
-        facts.modbusNumberOffset = m_outline.shared.modbusNumberOffset;
-    if (m_outline.shared.addressesOnly)
-        facts.addressesOnly = m_outline.shared.addressesOnly;
+    facts.lay(m_outline.shared);
     return facts;
 }
 

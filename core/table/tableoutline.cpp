@@ -39,6 +39,18 @@ void take(TableOutline::Model &model, QByteArrayView key, QByteArrayView value)
 
 } // namespace
 
+void TableOutline::Facts::lay(const Facts &over)
+{
+    if (over.series)
+        series = over.series;
+    if (over.newestFirmware)
+        newestFirmware = over.newestFirmware;
+    if (over.modbusNumberOffset)
+        modbusNumberOffset = over.modbusNumberOffset;
+    if (over.addressesOnly)
+        addressesOnly = over.addressesOnly;
+}
+
 TableOutline outlineOf(QByteArrayView json)
 {
     TableOutline outline;

@@ -19,6 +19,8 @@ struct TableOutline {
         std::optional<int> newestFirmware; ///< −1: removed
         std::optional<int> modbusNumberOffset;
         std::optional<bool> addressesOnly;
+
+        void lay(const Facts &over); ///< what `over` says replaces what stands here
     };
     struct Model {
         QString name;
