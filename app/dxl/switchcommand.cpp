@@ -7,8 +7,6 @@
 #include "app/dxl/target.h"
 #include "core/session/deviceplace.h"
 
-#include <algorithm>
-
 namespace dynascope::dxl {
 
 namespace {
@@ -23,9 +21,10 @@ struct Switch {
 
     std::vector<Span> spans(bool itself) const
     {
-        return spansOf(*device->table(), device->id(), [&](const Field &other) {
-            return (itself && &other == field) || std::ranges::find(affected, &other) != affected.end();
-        });
+        std::vector<const Field *> fields = affected;
+        if (itself)
+            fields.push_back(field);
+        return spansOf(*device->table(), device->id(), among(std::move(fields)));
     }
 };
 

@@ -7,7 +7,6 @@
 #include "core/bus/operations.h"
 #include "core/session/deviceplace.h"
 
-#include <algorithm>
 #include <set>
 
 namespace dynascope::dxl {
@@ -85,20 +84,16 @@ Result<Bytes> moveNoted(const Work &work, Device &device, const Assignment &assi
 }
 
 /// Its own old value is in `change` where that can't be read any more.
-Result<Bytes> writeNoted(const Work &work, Device &device, const RegisterChange &change,
+Result<Bytes> writeNoted(const Work &work, Device &device, const Assignment &assignment, const RegisterChange &change,
                          const std::vector<const Field *> &affected)
 {
     WriteFieldPlan plan;
     plan.place.baudRate = device.found().baudRate;
     plan.data = {device.id(), change.address, change.after};
-    if (device.table()) {
-        plan.sideEffects = spansOf(*device.table(), device.id(), [&affected](const Field &field) {
-            return std::ranges::find(affected, &field) != affected.end();
-        });
-        const Field *field = device.table()->find(change.name);
-        if (field && field->address == change.address && field->size == static_cast<int>(change.after.size()))
-            plan.becomes = becomesLater(*field, rawFromBytes(*field, change.after));
-    }
+    if (device.table())
+        plan.sideEffects = spansOf(*device.table(), device.id(), among(affected));
+    if (assignment.field)
+        plan.becomes = becomesLater(*assignment.field, assignment.raw);
     plan.before = plan.sideEffects;
     if (change.before.empty())
         plan.before.push_back({device.id(), change.address, static_cast<std::uint16_t>(change.after.size())});
@@ -161,9 +156,7 @@ Share shareOf(const Work &work, const AssignedTo &one)
     if (device.isMute())
         return share;
     share.spans.push_back({share.data.id, share.data.address, static_cast<std::uint16_t>(share.data.data.size())});
-    for (const Span &span : spansOf(*device.table(), device.id(), [&affected](const Field &field) {
-             return std::ranges::find(affected, &field) != affected.end();
-         }))
+    for (const Span &span : spansOf(*device.table(), device.id(), among(affected)))
         share.spans.push_back(span);
     return share;
 }
@@ -220,7 +213,7 @@ Result<Written> writeOne(const Work &work, Device &device, const Assignment &ass
             const auto sent = sendNoted(work, device, change);
             return sent ? Result<Written>(std::nullopt) : tl::unexpected(sent.error());
         }
-        back = writeNoted(work, device, change, affected);
+        back = writeNoted(work, device, assignment, change, affected);
     }
     return back ? Result<Written>(std::move(*back)) : tl::unexpected(back.error());
 }

@@ -4,17 +4,15 @@
 
 #include "core/table/units.h"
 
-#include <algorithm>
 #include <memory>
 
 namespace dynascope {
 namespace {
 
-std::function<bool(const Field &)> among(const std::vector<const Field *> &fields, const Field *also = nullptr)
+std::vector<const Field *> with(std::vector<const Field *> fields, const Field &field)
 {
-    return [&fields, also](const Field &field) {
-        return &field == also || std::ranges::find(fields, &field) != fields.end();
-    };
+    fields.push_back(&field);
+    return fields;
 }
 
 /// What a write to this field may move now.
@@ -110,7 +108,7 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
     const bool isTorqueOff = &field == device.table().find(Known::TorqueEnable) && raw == 0;
     const bool isDrag = m_journal && m_journal->continues(journalDevice(device), changeOf(field, raw));
     if (m_journal && !isTorqueOff && !isDrag)
-        plan.before = spansOf(device, among(affected, &field));
+        plan.before = spansOf(device, among(with(affected, field)));
     device.line()->bus().run<WrittenField>(
         Priority::Click, this, [plan = std::move(plan)](JobContext &context) { return dynascope::writeField(context, plan); },
         [this, key = device.key(), fieldIndex, raw, note = noteWrite(device, field, raw, affected),

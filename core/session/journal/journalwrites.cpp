@@ -78,6 +78,11 @@ std::vector<Span> spansOf(const ControlTable &table, std::uint8_t id, const std:
     return spans;
 }
 
+std::function<bool(const Field &)> among(std::vector<const Field *> fields)
+{
+    return [fields = std::move(fields)](const Field &field) { return std::ranges::find(fields, &field) != fields.end(); };
+}
+
 RegisterChange changeOf(const Field &field, Bytes after)
 {
     return {field.name, field.address, field.isSigned, {}, std::move(after), {}};

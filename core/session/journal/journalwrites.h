@@ -34,6 +34,8 @@ bool isIndirectData(const Field &field);
 /// longer than `longest` bytes.
 std::vector<Span> spansOf(const ControlTable &table, std::uint8_t id, const std::function<bool(const Field &)> &wanted,
                           int longest = 128);
+/// Is it one of these? For spansOf().
+std::function<bool(const Field &)> among(std::vector<const Field *> fields);
 
 /// The field as an entry's change, nothing read yet.
 RegisterChange changeOf(const Field &field, Bytes after);
