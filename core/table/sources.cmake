@@ -2,6 +2,7 @@ target_sources(dynascope_core PRIVATE
     table/catalog.cpp table/catalog.h
     table/cellrows.cpp table/cellrows.h
     table/controltable.cpp table/controltable.h
+    table/effectivefield.cpp table/effectivefield.h
     table/field.h
     table/fieldchanges.cpp table/fieldchanges.h
     table/fieldreader.cpp table/fieldreader.h table/fieldreader_values.cpp
