@@ -116,7 +116,6 @@ void keepOthers(RevertPlan &plan, const RegisterChange &main, const ControlTable
             continue;
         const RegisterChange change = changeOf(*other, Bytes(other->size));
         plan.kept.push_back(revertRegister(change, Direction::Redo, table));
-        plan.kept.back().to = change.after;
     }
 }
 
@@ -152,8 +151,7 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
     if (isId && wanted > MaximumId)
         return failure(ErrorKind::InvalidArgument,
                        tr("Entry %1 speaks of ID %2, which no device can have").arg(entry.number).arg(wanted));
-    const auto rate = [table](int code) { return table ? table->baudRate(code) : std::nullopt; };
-    const std::optional<int> heldRate = rate(held), wantedRate = rate(wanted);
+    const std::optional<int> heldRate = table->baudRate(held), wantedRate = table->baudRate(wanted);
     if (isId ? step.place.id != held : step.place.baudRate != heldRate.value_or(0)) {
         return failure(ErrorKind::InvalidArgument,
                        tr("%1 has moved since entry %2, to ID %3 at %4 bps; nothing was written")
