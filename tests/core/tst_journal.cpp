@@ -229,6 +229,17 @@ private slots:
         QCOMPARE(journal.entries().size(), std::size_t(2)); // for as long as the program runs
     }
 
+    /// XL-320: what it follows as a wheel isn't called a goal.
+    void aDragOfAWheelIsOneEntry()
+    {
+        const QTemporaryDir folder;
+        Journal journal(folder.path());
+        for (std::uint8_t speed = 0; speed < 5; ++speed)
+            note(journal, writeEntry(u"Moving Speed"_s, 32, {speed, 0}, {std::uint8_t(speed + 1), 0}));
+        QCOMPARE(journal.entries().size(), std::size_t(1));
+        QCOMPARE(journal.entry(1)->changes.front().before, Bytes({0, 0}));
+    }
+
     void aDragIsOneEntry()
     {
         const QTemporaryDir folder;

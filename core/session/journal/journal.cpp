@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/journal/journal.h"
 
+#include "core/session/journal/journalwrites.h"
+
 #include <QRandomGenerator>
 #include <QStandardPaths>
 
@@ -19,7 +21,7 @@ constexpr auto SaveInterval = 1000ms; ///< of a drag that goes on
 bool isOneGoal(const JournalEntry &entry)
 {
     return entry.kind == JournalKind::Write && !entry.changes.empty() && entry.undoes == 0 && entry.redoes == 0
-           && entry.changes.front().name.startsWith(QLatin1String("Goal "));
+           && isGoalName(entry.changes.front().name);
 }
 
 bool isSameRegister(const RegisterChange &one, const RegisterChange &other)

@@ -31,9 +31,14 @@ JournalDevice journalDevice(const Device &device)
     return journalDevice(device.found(), device.model(), device.line() ? device.line()->name() : QString());
 }
 
+bool isGoalName(QStringView name)
+{
+    return name.startsWith(QLatin1String("Goal ")) || name == u"Moving Speed"; // the latter: XL-320
+}
+
 bool isGoal(const Field &field)
 {
-    return field.name.startsWith(QLatin1String("Goal ")) || field.name == u"Moving Speed"; // the latter: XL-320
+    return isGoalName(field.name);
 }
 
 bool isIndirectData(const Field &field)

@@ -26,7 +26,8 @@ std::vector<const Field *> affectedBy(const ControlTable &table, const Field &fi
 
 constexpr int TorqueOnByGoalBit = 3; ///< of Drive Mode, where a model and firmware has it
 
-bool isGoal(const Field &field); ///< what the motor is to follow
+bool isGoalName(QStringView name); ///< a register that says what the motor is to follow
+bool isGoal(const Field &field);
 /// Writes through to whatever its Indirect Address names.
 bool isIndirectData(const Field &field);
 

@@ -195,7 +195,7 @@ qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry)
             || !isSameLine(later.device, entry.device) || later.state == JournalState::Failed)
             continue;
         const bool touches = std::ranges::any_of(later.changes, [&](const RegisterChange &change) {
-            const bool follows = &change != &later.changes.front() && change.name.startsWith(QLatin1String("Goal "));
+            const bool follows = &change != &later.changes.front() && isGoalName(change.name);
             return !follows && change.address < main.address + static_cast<int>(main.after.size())
                    && main.address < change.address + static_cast<int>(change.after.size());
         });
