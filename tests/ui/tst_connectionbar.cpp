@@ -87,6 +87,25 @@ private slots:
         QCOMPARE(ports->port(), QStringLiteral("/dev/pts/7"));
     }
 
+    /// Where no port is listed the simulated bus stands there, at its 1 Mbps.
+    void aTypedPortHasItsOwnUsualBaud()
+    {
+        auto *ports = find<PortCombo>("portCombo");
+        auto *bauds = find<BaudCombo>("baudCombo");
+        const auto typePort = [ports](const QString &port) {
+            ports->lineEdit()->selectAll();
+            QTest::keyClicks(ports->lineEdit(), port);
+        };
+        typePort(QStringLiteral("sim"));
+        QCOMPARE(bauds->baudRate(), 1000000);
+        typePort(QStringLiteral("/dev/pts/7"));
+        QCOMPARE(bauds->baudRate(), 57600);
+        bauds->lineEdit()->selectAll();
+        QTest::keyClicks(bauds->lineEdit(), QStringLiteral("2M"));
+        typePort(QStringLiteral("sim"));
+        QCOMPARE(bauds->baudRate(), 2000000); // what the person said
+    }
+
     void connectsScansAndSaysSo()
     {
         auto *button = find<QPushButton>("connectButton");

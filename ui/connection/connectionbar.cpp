@@ -56,7 +56,18 @@ ConnectionBar::ConnectionBar(const Workbench &workbench, Connector &connector, Q
         if (!currentLine())
             m_baud->setBaudRate(Connector::lastBaudRate(m_port->port()));
     };
-    connect(m_port, &QComboBox::activated, this, showUsualBaud);
+    connect(m_port, &QComboBox::activated, this, [this, showUsualBaud] {
+        m_isBaudByHand = false;
+        showUsualBaud();
+    });
+    // Typed: 57 600 bps is not what the simulated bus works at, nor the other way round.
+    connect(m_port->lineEdit(), &QLineEdit::textEdited, this, [this, showUsualBaud] {
+        if (!m_isBaudByHand)
+            showUsualBaud();
+    });
+    const auto chosenByHand = [this] { m_isBaudByHand = true; };
+    connect(m_baud, &QComboBox::activated, this, chosenByHand);
+    connect(m_baud->lineEdit(), &QLineEdit::textEdited, this, chosenByHand);
     showUsualBaud();
     connect(m_port->lineEdit(), &QLineEdit::returnPressed, this, [this] {
         if (!currentLine())

@@ -77,6 +77,7 @@ private:
     StopButton *m_stop;
     LineSession *m_shown = nullptr; ///< whose baud rate the combo shows; compared only
     int m_shownBaud = 0;
+    bool m_isBaudByHand = false; ///< since a port was last picked from the list
 };
 
 } // namespace dynascope
