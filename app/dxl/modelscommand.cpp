@@ -106,7 +106,14 @@ ExitCode save(const QString &path, const QByteArray &json, Output &output)
     return ExitCode::Done;
 }
 
-ExitCode importFile(const ModelsArguments &arguments, Output &output)
+/// What was imported may still be refused where it is to be used.
+void sayWhatIsTaken(Catalog catalog, const QByteArray &json, const QString &path, Output &output)
+{
+    if (const Result<void> added = catalog.add(json, path); !added)
+        output.note(QStringLiteral("among your tables it would be refused: %1").arg(added.error().text));
+}
+
+ExitCode importFile(const Catalog &catalog, const ModelsArguments &arguments, Output &output)
 {
     const QString path = QString::fromStdString(arguments.file);
     const Result<QByteArray> bytes = readTableFile(path);
@@ -118,8 +125,11 @@ ExitCode importFile(const ModelsArguments &arguments, Output &output)
         return output.fail(table.error());
     for (const QString &note : table->notes)
         output.note(note);
-    if (!arguments.out.empty())
-        return save(QString::fromStdString(arguments.out), table->json, output);
+    const QString out = QString::fromStdString(arguments.out);
+    if (out.isEmpty() || !QFileInfo::exists(out)) // else that is said
+        sayWhatIsTaken(catalog, table->json, out.isEmpty() ? path : out, output);
+    if (!out.isEmpty())
+        return save(out, table->json, output);
     const auto size = static_cast<std::size_t>(table->json.size());
     if (std::fwrite(table->json.constData(), 1, size, stdout) != size || std::fflush(stdout) != 0)
         return output.fail({ErrorKind::BadFile, QStringLiteral("standard output takes no more: nothing is complete")});
@@ -168,7 +178,7 @@ ExitCode modelsCommand(const Catalog &catalog, const ModelsArguments &arguments,
     case ModelsArguments::Act::Check: return check(catalog, QString::fromStdString(arguments.file), output);
     case ModelsArguments::Act::Import: break;
     }
-    return importFile(arguments, output);
+    return importFile(catalog, arguments, output);
 }
 
 } // namespace dynascope::dxl

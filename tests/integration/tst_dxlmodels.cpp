@@ -248,6 +248,23 @@ private slots:
         QVERIFY(dxl({u"models"_s, u"import"_s, csv}).out.startsWith(u"{\n  \"format\": 2,"_s));
     }
 
+    /// What it would be refused for at the next start is said when it is made.
+    void importSaysWhatIsTaken()
+    {
+        const QString csv = file(u"xq_1.csv"_s, "address,size,name\n0,2,Model Number\n");
+        const auto noted = [&csv](const QString &name, const QString &number) {
+            return dxl({u"models"_s, u"import"_s, csv, u"--name"_s, name, u"--number"_s, number});
+        };
+        const Outcome free = noted(u"XQ-1"_s, u"9001"_s);
+        QVERIFY2(free.code == 0 && free.err.isEmpty(), qPrintable(free.err));
+        const Outcome name = noted(u"XM430-W350"_s, u"9001"_s);
+        QCOMPARE(name.code, 0);
+        QVERIFY2(name.err.contains(u"this name is taken by XM430-W350 (number 1020)"_s), qPrintable(name.err));
+        const Outcome number = noted(u"XQ-1"_s, u"1020"_s);
+        QVERIFY2(number.code == 0 && number.err.contains(u"the number 1020 is taken by XM430-W350"_s),
+                 qPrintable(number.err));
+    }
+
     void aBadFileOfOnesOwnIsSaid()
     {
         file(u"own.json"_s,
