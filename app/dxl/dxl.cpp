@@ -92,8 +92,13 @@ ExitCode perform(const Options &options, Output &output)
     auto catalog = Catalog::builtIn();
     if (!catalog)
         return output.fail(catalog.error());
-    for (const Error &refused : addUserTables(*catalog, userTablesFolder()).refused)
-        output.note(refused.text);
+    // A file that is checked doesn't stand in its own way, and the others aren't asked about.
+    const bool checks = options.command == Command::Models && options.models.act == ModelsArguments::Act::Check;
+    const QString checked = checks ? QString::fromStdString(options.models.file) : QString();
+    for (const Error &refused : addUserTables(*catalog, userTablesFolder(), checked).refused) {
+        if (!checks)
+            output.note(refused.text);
+    }
     switch (options.command) {
     case Command::Completion: return completionCommand(*catalog, options, output);
     case Command::Journal: return journalCommand(*catalog, options, output);

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/modelscommand.h"
 
-#include "app/dxl/showvalue.h"
 #include "core/table/tableimport.h"
-#include "core/table/units.h"
 #include "core/table/usertables.h"
 
 #include <CLI/CLI.hpp>
 
+#include <QDir>
 #include <QFileInfo>
 #include <QSaveFile>
 
@@ -50,145 +49,19 @@ ExitCode list(const Catalog &catalog, Output &output)
     return ExitCode::Done;
 }
 
-QString boundText(const Bound &bound)
+/// The file of these bytes that is used already, whatever it is called; empty where there is none.
+QString twinOf(const QByteArray &json, const QString &path)
 {
-    if (bound.number)
-        return QString::number(*bound.number);
-    return (bound.negated ? QStringLiteral("-") : QString()) + bound.reg;
-}
-
-QString rangeText(const Field &field)
-{
-    if (!field.minimum.isSet() && !field.maximum.isSet())
-        return {};
-    return QStringLiteral("%1 to %2").arg(boundText(field.minimum), boundText(field.maximum));
-}
-
-QString unitText(const Field &field)
-{
-    if (field.unit == Unit::None)
-        return {};
-    return field.scale == 1.0 ? tableUnit(field.unit)
-                              : QStringLiteral("%1 %2").arg(field.scale).arg(tableUnit(field.unit));
-}
-
-Document registerDocument(const Field &field)
-{
-    Document document;
-    document.add("name", field.name)
-        .add("address", qint64(field.address))
-        .add("size", qint64(field.size))
-        .addFlag("signed", field.isSigned)
-        .add("area", areaName(field.area))
-        .add("access", accessName(field.access));
-    if (field.initial)
-        document.add("initial", qint64(*field.initial));
-    if (field.minimum.isSet())
-        document.add("minimum", boundText(field.minimum));
-    if (field.maximum.isSet())
-        document.add("maximum", boundText(field.maximum));
-    if (field.unit != Unit::None)
-        document.add("unit", tableUnit(field.unit)).add("scale", field.scale);
-    if (!field.help.isEmpty())
-        document.add("help", field.help);
-    if (!field.doubt.isEmpty())
-        document.add("doubt", field.doubt);
-    return document;
-}
-
-QString registerLine(const Field &field)
-{
-    QString line = QStringLiteral("%1 %2 %3 %4 %5")
-                       .arg(field.address, 5)
-                       .arg((field.isSigned ? QStringLiteral("-") : QString()) + QString::number(field.size), 2)
-                       .arg(areaName(field.area), -6)
-                       .arg(accessName(field.access), -2)
-                       .arg(field.name, -32);
-    QStringList more;
-    if (field.initial)
-        more.append(QStringLiteral("= %1").arg(*field.initial));
-    if (const QString range = rangeText(field); !range.isEmpty())
-        more.append(range);
-    if (const QString unit = unitText(field); !unit.isEmpty())
-        more.append(unit);
-    if (!field.doubt.isEmpty())
-        more.append(QStringLiteral("(doubtful: %1)").arg(field.doubt));
-    line += more.join(QStringLiteral(", "));
-    while (line.endsWith(u' '))
-        line.chop(1);
-    return line;
-}
-
-/// The table that MODEL[/FIRMWARE] names; the model by name or number.
-Result<std::pair<ControlTablePtr, int>> named(const Catalog &catalog, const QString &text)
-{
-    const qsizetype slash = text.lastIndexOf(u'/');
-    const QString model = slash < 0 ? text : text.left(slash);
-    bool isNumber = false;
-    const int number = model.toInt(&isNumber);
-    const Catalog::ModelInfo *info = isNumber ? catalog.model(number) : catalog.model(QStringView(model));
-    if (!info) {
-        return failure(ErrorKind::NotFound,
-                       QStringLiteral("no model is called %1; dxl models lists them all").arg(model));
+    for (const QString &folder : {QStringLiteral(":/controltables"), userTablesFolder()}) {
+        for (const QString &name : QDir(folder).entryList({QStringLiteral("*.json")}, QDir::Files, QDir::Name)) {
+            const QString other = folder + u'/' + name;
+            if (QFileInfo(other) == QFileInfo(path))
+                continue;
+            if (const Result<QByteArray> bytes = readTableFile(other); bytes && *bytes == json)
+                return folder.startsWith(u':') ? QStringLiteral("the built-in %1").arg(name) : other;
+        }
     }
-    bool ok = true;
-    const int firmware = slash < 0 ? info->newestFirmware : text.mid(slash + 1).toInt(&ok);
-    if (!ok || firmware > 255 || (slash >= 0 && firmware < 0))
-        return failure(ErrorKind::InvalidArgument, QStringLiteral("the firmware is a number from 0 to 255"));
-    return std::pair(catalog.find(info->modelNumber, firmware), firmware);
-}
-
-QStringList remarks(const ControlTable &table, int firmware)
-{
-    const ControlTable::Description &model = table.description();
-    QStringList lines;
-    if (table.isNewerThanKnown(firmware)) {
-        lines.append(QStringLiteral("Firmware %1 is newer than the newest known, %2: its table may differ.")
-                         .arg(firmware)
-                         .arg(model.newestFirmware));
-    }
-    if (!model.alsoCalled.isEmpty())
-        lines.append(QStringLiteral("Also called %1.").arg(model.alsoCalled.join(QStringLiteral(", "))));
-    if (!model.doubt.isEmpty())
-        lines.append(QStringLiteral("Doubtful: %1").arg(model.doubt));
-    if (!model.manualPage.isEmpty())
-        lines.append(model.manualPage);
-    return lines;
-}
-
-ExitCode show(const Catalog &catalog, const QString &text, Output &output)
-{
-    const auto found = named(catalog, text);
-    if (!found)
-        return output.refuse(found.error());
-    const ControlTable &table = *found->first;
-    const ControlTable::Description &model = table.description();
-    QStringList lines{QStringLiteral("%1, model number %2, series %3, firmware %4 to %5")
-                          .arg(model.model)
-                          .arg(model.modelNumber)
-                          .arg(model.series)
-                          .arg(model.firmwareFrom)
-                          .arg(model.firmwareTo)};
-    lines += remarks(table, found->second);
-    Document document;
-    document.add("model", model.model)
-        .add("number", qint64(model.modelNumber))
-        .add("series", model.series)
-        .add("firmware_from", qint64(model.firmwareFrom))
-        .add("firmware_to", qint64(model.firmwareTo))
-        .addFlag("newer_than_known", table.isNewerThanKnown(found->second))
-        .addFlag("addresses_only", model.addressesOnly)
-        .add("resolution", qint64(model.resolution));
-    if (!model.doubt.isEmpty())
-        document.add("doubt", model.doubt);
-    std::vector<Document> registers;
-    for (const Field &field : table.fields()) {
-        lines.append(registerLine(field));
-        registers.push_back(registerDocument(field));
-    }
-    document.add("registers", registers);
-    output.result(lines.join(u'\n'), document);
-    return ExitCode::Done;
+    return {};
 }
 
 ExitCode check(const Catalog &catalog, const QString &path, Output &output)
@@ -196,6 +69,13 @@ ExitCode check(const Catalog &catalog, const QString &path, Output &output)
     const Result<QByteArray> json = readTableFile(path);
     if (!json)
         return output.fail(json.error());
+    const QString twin = twinOf(*json, path);
+    if (twin.startsWith(u"the built-in ")) {
+        Document document;
+        document.add("file", path).addFlag("sound", true).add("models", qint64(0)).add("same_as", twin);
+        output.result(QStringLiteral("%1: sound, the same as %2").arg(path, twin), document);
+        return ExitCode::Done;
+    }
     Catalog with = catalog;
     const std::size_t before = with.models().size();
     if (const Result<void> added = with.add(*json, path); !added)
@@ -203,9 +83,13 @@ ExitCode check(const Catalog &catalog, const QString &path, Output &output)
     const auto models = static_cast<qint64>(with.models().size() - std::min(before, with.models().size()));
     Document document;
     document.add("file", path).addFlag("sound", true).add("models", models);
-    output.result(models == 1 ? QStringLiteral("%1: sound, 1 new model").arg(path)
-                              : QStringLiteral("%1: sound, %2 new models").arg(path).arg(models),
-                  document);
+    QString text = models == 1 ? QStringLiteral("%1: sound, 1 new model").arg(path)
+                               : QStringLiteral("%1: sound, %2 new models").arg(path).arg(models);
+    if (!twin.isEmpty()) {
+        document.add("same_as", twin);
+        text = QStringLiteral("%1: sound, the same as %2").arg(path, twin);
+    }
+    output.result(text, document);
     return ExitCode::Done;
 }
 
@@ -222,7 +106,14 @@ ExitCode save(const QString &path, const QByteArray &json, Output &output)
     return ExitCode::Done;
 }
 
-ExitCode importFile(const ModelsArguments &arguments, Output &output)
+/// What was imported may still be refused where it is to be used.
+void sayWhatIsTaken(Catalog catalog, const QByteArray &json, const QString &path, Output &output)
+{
+    if (const Result<void> added = catalog.add(json, path); !added)
+        output.note(QStringLiteral("among your tables it would be refused: %1").arg(added.error().text));
+}
+
+ExitCode importFile(const Catalog &catalog, const ModelsArguments &arguments, Output &output)
 {
     const QString path = QString::fromStdString(arguments.file);
     const Result<QByteArray> bytes = readTableFile(path);
@@ -234,8 +125,11 @@ ExitCode importFile(const ModelsArguments &arguments, Output &output)
         return output.fail(table.error());
     for (const QString &note : table->notes)
         output.note(note);
-    if (!arguments.out.empty())
-        return save(QString::fromStdString(arguments.out), table->json, output);
+    const QString out = QString::fromStdString(arguments.out);
+    if (out.isEmpty() || !QFileInfo::exists(out)) // else that is said
+        sayWhatIsTaken(catalog, table->json, out.isEmpty() ? path : out, output);
+    if (!out.isEmpty())
+        return save(out, table->json, output);
     const auto size = static_cast<std::size_t>(table->json.size());
     if (std::fwrite(table->json.constData(), 1, size, stdout) != size || std::fflush(stdout) != 0)
         return output.fail({ErrorKind::BadFile, QStringLiteral("standard output takes no more: nothing is complete")});
@@ -280,11 +174,11 @@ ExitCode modelsCommand(const Catalog &catalog, const ModelsArguments &arguments,
 {
     switch (arguments.act) {
     case ModelsArguments::Act::List: return list(catalog, output);
-    case ModelsArguments::Act::Show: return show(catalog, QString::fromStdString(arguments.model), output);
+    case ModelsArguments::Act::Show: return showModel(catalog, QString::fromStdString(arguments.model), output);
     case ModelsArguments::Act::Check: return check(catalog, QString::fromStdString(arguments.file), output);
     case ModelsArguments::Act::Import: break;
     }
-    return importFile(arguments, output);
+    return importFile(catalog, arguments, output);
 }
 
 } // namespace dynascope::dxl

@@ -15,5 +15,7 @@ void describeModels(CLI::App &app, ModelsArguments &typed);
 
 /// The library of control tables: needs no line.
 ExitCode modelsCommand(const Catalog &catalog, const ModelsArguments &arguments, Output &output);
+/// The registers of the model that `text`, MODEL[/FIRMWARE], names.
+ExitCode showModel(const Catalog &catalog, const QString &text, Output &output);
 
 } // namespace dynascope::dxl

@@ -71,7 +71,9 @@ std::map<QString, QByteArray> builtInFiles()
 {
     const QString folder = QStringLiteral(":/controltables/");
     std::map<QString, QByteArray> files;
-    for (const QString &name : QDir(folder).entryList({QStringLiteral("*.json")}, QDir::Files)) {
+    for (const QString &name : QDir(folder).entryList(QDir::Files, QDir::Unsorted)) {
+        if (!name.endsWith(u".json")) // quicker than a pattern of QDir's, which takes as long as all the outlines
+            continue;
         const QResource resource(folder + name);
         const bool plain = resource.compressionAlgorithm() == QResource::NoCompression;
         files[stem(name)] =

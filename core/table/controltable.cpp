@@ -20,6 +20,26 @@ constexpr std::array<QStringView, static_cast<std::size_t>(Known::PresentPositio
     u"Present Position",
 };
 
+/// What a character counts for where names are compared; a space: nothing.
+QChar plain(QChar c)
+{
+    const bool isPlain = c > u' ' && c < u'\x7f'; // all of the manufacturer's, and quicker
+    if (c == u'-' || c == u'_' || (!isPlain && c.isSpace()))
+        return u' ';
+    return !isPlain ? c.toLower() : c >= u'A' && c <= u'Z' ? QChar(c.unicode() + 32) : c;
+}
+
+/// Of names that are compared as one the same (FNV-1a).
+std::uint32_t hashOf(QStringView name)
+{
+    std::uint32_t hash = 2166136261U;
+    for (const QChar c : name) {
+        if (const QChar counts = plain(c); counts != u' ')
+            hash = (hash ^ counts.unicode()) * 16777619U;
+    }
+    return hash;
+}
+
 } // namespace
 
 QStringView nameOf(Known field)
@@ -32,7 +52,7 @@ ControlTable::ControlTable(Description description) : m_description(std::move(de
     m_byName.reserve(m_description.fields.size());
     for (std::size_t i = 0; i < m_description.fields.size(); ++i) {
         const Field &field = m_description.fields[i];
-        m_byName.emplace_back(normalizedName(field.name), static_cast<int>(i));
+        m_byName.emplace_back(hashOf(field.name), static_cast<int>(i));
         m_size = std::max(m_size, field.end());
     }
     std::sort(m_byName.begin(), m_byName.end());
@@ -43,9 +63,14 @@ ControlTable::ControlTable(Description description) : m_description(std::move(de
 
 int ControlTable::indexOf(QStringView name) const
 {
-    const std::pair<QString, int> wanted(normalizedName(name), -1);
-    const auto found = std::lower_bound(m_byName.begin(), m_byName.end(), wanted);
-    return found != m_byName.end() && found->first == wanted.first ? found->second : -1;
+    const std::pair<std::uint32_t, int> wanted(hashOf(name), -1);
+    for (auto it = std::lower_bound(m_byName.begin(), m_byName.end(), wanted);
+         it != m_byName.end() && it->first == wanted.first; ++it) {
+        const QString &found = m_description.fields[static_cast<std::size_t>(it->second)].name;
+        if (found == name || normalizedName(found) == normalizedName(name))
+            return it->second;
+    }
+    return -1;
 }
 
 const Field *ControlTable::find(QStringView name) const
@@ -116,16 +141,15 @@ bool ControlTable::isNewerThanKnown(int firmware) const
 
 QString normalizedName(QStringView name)
 {
-    QString plain(name.size(), Qt::Uninitialized);
+    QString text(name.size(), Qt::Uninitialized);
+    QChar *out = text.data();
     qsizetype length = 0;
     for (const QChar c : name) {
-        const bool isPlain = c > u' ' && c < u'\x7f'; // all of the manufacturer's, and quicker
-        if (c == u'-' || c == u'_' || (!isPlain && c.isSpace()))
-            continue;
-        plain[length++] = !isPlain ? c.toLower() : c >= u'A' && c <= u'Z' ? QChar(c.unicode() + 32) : c;
+        if (const QChar counts = plain(c); counts != u' ')
+            out[length++] = counts;
     }
-    plain.truncate(length);
-    return plain;
+    text.truncate(length);
+    return text;
 }
 
 } // namespace dynascope

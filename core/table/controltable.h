@@ -97,7 +97,7 @@ public:
 
 private:
     Description m_description;
-    std::vector<std::pair<QString, int>> m_byName; ///< normalised, sorted
+    std::vector<std::pair<std::uint32_t, int>> m_byName; ///< hash of the normalised name, and index; sorted
     std::array<int, static_cast<std::size_t>(Known::PresentPosition) + 1> m_known{}; ///< by Known
     int m_size = 0;
 };

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+using namespace Qt::StringLiterals; // keys of JSON are found quicker by them
+
 namespace dynascope {
 namespace {
 
@@ -28,8 +30,8 @@ std::optional<std::int64_t> wholeNumber(const QJsonValue &value)
 
 bool holdsFor(const QJsonObject &json, int firmware)
 {
-    const QJsonValue since = json.value(u"since");
-    const QJsonValue until = json.value(u"until");
+    const QJsonValue since = json.value("since"_L1);
+    const QJsonValue until = json.value("until"_L1);
     return since.toInt(0) <= firmware && firmware <= until.toInt(NewestFirmware);
 }
 
@@ -37,32 +39,33 @@ Field FieldReader::read(const QString &name, const QJsonObject &json)
 {
     m_field = Field();
     m_field.name = name;
-    if (name.trimmed() != name || normalizedName(name).isEmpty() || name.size() > LongestLabel)
+    if (!m_context.isKnownSound
+        && (name.trimmed() != name || normalizedName(name).isEmpty() || name.size() > LongestLabel))
         say(QStringLiteral("not a name for a register"));
     readPlace(json);
     if (!m_wrong.isEmpty())
-        return m_field; // without a size nothing else makes sense
+        return std::move(m_field); // without a size nothing else makes sense
     if (!m_context.addressesOnly)
         readMeaning(json);
     readTexts(json);
-    return m_field;
+    return std::move(m_field);
 }
 
 void FieldReader::readMeaning(const QJsonObject &json)
 {
     m_reading = QStringLiteral("values");
-    m_field.values = readNamed(listed(json.value(u"values")), true);
+    m_field.values = readNamed(listed(json.value("values"_L1)), true);
     m_reading = QStringLiteral("special");
-    m_field.special = readNamed(listed(json.value(u"special")), false);
+    m_field.special = readNamed(listed(json.value("special"_L1)), false);
     m_reading = QStringLiteral("bits");
-    readBits(json.value(u"bits").toObject());
+    readBits(json.value("bits"_L1).toObject());
     m_reading = QStringLiteral("range");
-    readRange(json.value(u"range"), m_field.minimum, m_field.maximum);
+    readRange(json.value("range"_L1), m_field.minimum, m_field.maximum);
     m_reading = QStringLiteral("initial");
-    readInitial(json.value(u"initial"));
+    readInitial(json.value("initial"_L1));
     readUnit(json, m_field.unit, m_field.scale);
-    readDirectionBit(json.value(u"directionBit"), m_field.directionBit);
-    readAlternates(json.value(u"alternates"));
+    readDirectionBit(json.value("directionBit"_L1), m_field.directionBit);
+    readAlternates(json.value("alternates"_L1));
     if (m_field.unit == Unit::Pulse)
         m_field.gearRatio = m_context.gearRatio;
     if (m_field.unit == Unit::MilliAmpere || m_field.unit == Unit::Ampere)
@@ -71,10 +74,10 @@ void FieldReader::readMeaning(const QJsonObject &json)
 
 void FieldReader::readPlace(const QJsonObject &json)
 {
-    const std::optional<std::int64_t> address = wholeNumber(json.value(u"address"));
-    const std::optional<std::int64_t> size = wholeNumber(json.value(u"size"));
+    const std::optional<std::int64_t> address = wholeNumber(json.value("address"_L1));
+    const std::optional<std::int64_t> size = wholeNumber(json.value("size"_L1));
     m_reading = QStringLiteral("size");
-    if (!json.contains(u"size"))
+    if (!json.contains("size"_L1))
         return say(QStringLiteral("\"size\" is missing, and what the file extends defines no register of this name"));
     if (size != 1 && size != 2 && size != 4)
         return say(QStringLiteral("\"size\" must be 1, 2 or 4"));
@@ -88,22 +91,22 @@ void FieldReader::readPlace(const QJsonObject &json)
         m_field.access = Access::Unknown;
         return;
     }
-    const QJsonValue isSigned = json.value(u"signed");
+    const QJsonValue isSigned = json.value("signed"_L1);
     m_reading = QStringLiteral("signed");
     if (!isSigned.isUndefined() && !isSigned.isBool())
         say(QStringLiteral("\"signed\" must be true or false"));
     m_field.isSigned = isSigned.toBool();
-    const QString area = json.value(u"area").toString(), access = json.value(u"access").toString();
+    const QString area = json.value("area"_L1).toString(), access = json.value("access"_L1).toString();
     m_reading = QStringLiteral("area");
     m_field.area = area == u"EEPROM"   ? Area::Eeprom
                    : area == u"RAM"    ? Area::Ram
                    : area == u"HYBRID" ? Area::Hybrid
                                        : Area::Unknown;
-    if (m_field.area == Area::Unknown && json.contains(u"area"))
+    if (m_field.area == Area::Unknown && json.contains("area"_L1))
         say(QStringLiteral("\"area\" must be \"EEPROM\", \"RAM\" or \"HYBRID\""));
     m_reading = QStringLiteral("access");
     m_field.access = access == u"RW" ? Access::ReadWrite : access == u"R" ? Access::Read : Access::Unknown;
-    if (m_field.access == Access::Unknown && json.contains(u"access"))
+    if (m_field.access == Access::Unknown && json.contains("access"_L1))
         say(QStringLiteral("\"access\" must be \"R\" or \"RW\""));
 }
 
@@ -167,8 +170,8 @@ Bound FieldReader::readBound(const QJsonValue &value)
 
 void FieldReader::readUnit(const QJsonObject &json, Unit &unit, double &scale)
 {
-    const QJsonValue name = json.value(u"unit");
-    const QJsonValue factor = json.value(u"scale");
+    const QJsonValue name = json.value("unit"_L1);
+    const QJsonValue factor = json.value("scale"_L1);
     m_reading = QStringLiteral("unit");
     if (!name.isUndefined()) {
         const QString text = name.toString();
@@ -214,12 +217,12 @@ void FieldReader::readTexts(const QJsonObject &json)
     m_reading = QStringLiteral("doubt");
     m_field.doubt = readText(json, QStringLiteral("doubt"));
     m_reading = QStringLiteral("needs");
-    const QJsonValue needs = json.value(u"needs");
+    const QJsonValue needs = json.value("needs"_L1);
     m_field.torqueOff = needs == QLatin1String("torque off");
     if (!needs.isUndefined() && !m_field.torqueOff)
         say(QStringLiteral("\"needs\" must be \"torque off\""));
     m_reading = QStringLiteral("resets");
-    const QJsonValue resets = json.value(u"resets");
+    const QJsonValue resets = json.value("resets"_L1);
     if (!resets.isUndefined() && !resets.isArray())
         say(QStringLiteral("\"resets\" must be a list of registers"));
     for (const QJsonValue &name : m_context.addressesOnly ? QJsonArray() : resets.toArray())
@@ -248,6 +251,8 @@ void FieldReader::checkFits(std::int64_t number, const QString &what)
 
 void FieldReader::checkLabel(const QString &text)
 {
+    if (m_context.isKnownSound)
+        return;
     // '+' and ',' join bits where a person types them.
     if (normalizedName(text).isEmpty() || text.size() > LongestLabel || text.contains(u'+') || text.contains(u','))
         say(QStringLiteral("\"%1\" is not a name: 1 to %2 characters, no + and no comma").arg(text).arg(LongestLabel));

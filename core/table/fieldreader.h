@@ -32,10 +32,12 @@ public:
         GearRatio gearRatio;
         double torqueConstant = 0;
         bool addressesOnly = false;
+        bool isKnownSound = false; ///< names aren't looked at again
     };
 
     explicit FieldReader(const Context &context) : m_context(context) { }
 
+    /// Once.
     Field read(const QString &name, const QJsonObject &json);
     /// What is wrong, beginning with the register's name; empty where nothing is.
     const QString &wrong() const { return m_wrong; }

@@ -8,16 +8,18 @@
 
 #include <algorithm>
 
+using namespace Qt::StringLiterals; // keys of JSON are found quicker by them
+
 namespace dynascope {
 namespace {
 
 /// The lowest bit and how many, of {"bit": 2} or {"bits": [4, 5]}.
 std::optional<std::pair<int, int>> bitPlace(const QJsonObject &json, int width)
 {
-    std::optional<std::int64_t> first = wholeNumber(json.value(u"bit"));
+    std::optional<std::int64_t> first = wholeNumber(json.value("bit"_L1));
     std::optional<std::int64_t> last = first;
-    const QJsonValue group = json.value(u"bits");
-    if (group.isUndefined() == json.value(u"bit").isUndefined())
+    const QJsonValue group = json.value("bits"_L1);
+    if (group.isUndefined() == json.value("bit"_L1).isUndefined())
         return std::nullopt;
     if (!group.isUndefined()) {
         const QJsonArray both = group.toArray();
@@ -62,11 +64,13 @@ std::vector<EnumValue> FieldReader::readNamed(const QJsonValue &value, bool dist
         if (!isNumber || QString::number(number) != it.key())
             say(QStringLiteral("\"%1\" is not a whole number").arg(it.key()));
         checkFits(number, QStringLiteral("value"));
-        const QString text = it->isObject() ? object.value(u"text").toString() : it->toString();
+        const QString text = it->isObject() ? object.value("text"_L1).toString() : it->toString();
         checkLabel(text);
-        if (distinct && names.contains(normalizedName(text)))
-            say(QStringLiteral("two values are called \"%1\"").arg(text));
-        names.append(normalizedName(text));
+        if (distinct && !m_context.isKnownSound) {
+            if (names.contains(normalizedName(text)))
+                say(QStringLiteral("two values are called \"%1\"").arg(text));
+            names.append(normalizedName(text));
+        }
         values.push_back({number, text});
     }
     std::sort(values.begin(), values.end(), [](const EnumValue &a, const EnumValue &b) { return a.value < b.value; });
@@ -97,7 +101,7 @@ void FieldReader::readBit(const QString &name, const QJsonObject &json)
     bit.count = place->second;
     bit.name = name;
     checkLabel(name);
-    bit.values = readNamed(json.value(u"values"), true);
+    bit.values = readNamed(json.value("values"_L1), true);
     for (const EnumValue &value : bit.values) {
         if (value.value < 0 || value.value >> bit.count != 0)
             say(QStringLiteral("value %1 doesn't fit \"%2\"").arg(value.value).arg(name));
@@ -105,18 +109,18 @@ void FieldReader::readBit(const QString &name, const QJsonObject &json)
     for (const BitField &other : m_field.bits) {
         if (other.mask() & bit.mask())
             say(QStringLiteral("\"%1\" and \"%2\" overlap").arg(other.name, name));
-        if (normalizedName(other.name) == normalizedName(name))
+        if (!m_context.isKnownSound && normalizedName(other.name) == normalizedName(name))
             say(QStringLiteral("two bits are called \"%1\"").arg(name));
     }
-    m_field.bits.push_back(bit);
+    m_field.bits.push_back(std::move(bit));
 }
 
 void FieldReader::readAlternates(const QJsonValue &value)
 {
     for (const QJsonValue &entry : value.toArray()) {
         ++m_alternate;
-        if (const std::optional<Alternate> alternate = readAlternate(entry.toObject()))
-            m_field.alternates.push_back(*alternate);
+        if (std::optional<Alternate> alternate = readAlternate(entry.toObject()))
+            m_field.alternates.push_back(std::move(*alternate));
     }
     m_alternate = -1;
 }
@@ -124,33 +128,33 @@ void FieldReader::readAlternates(const QJsonValue &value)
 std::optional<Alternate> FieldReader::readAlternate(const QJsonObject &json)
 {
     Alternate alternate;
-    alternate.reg = json.value(u"register").toString();
+    alternate.reg = json.value("register"_L1).toString();
     alternate.minimum = m_field.minimum;
     alternate.maximum = m_field.maximum;
     alternate.unit = m_field.unit;
     alternate.scale = m_field.scale;
     alternate.directionBit = m_field.directionBit;
     m_reading = QStringLiteral("range");
-    readRange(json.value(u"range"), alternate.minimum, alternate.maximum);
+    readRange(json.value("range"_L1), alternate.minimum, alternate.maximum);
     readUnit(json, alternate.unit, alternate.scale);
-    readDirectionBit(json.value(u"directionBit"), alternate.directionBit);
+    readDirectionBit(json.value("directionBit"_L1), alternate.directionBit);
     m_reading = QStringLiteral("register");
 
     const QJsonValue decider = m_context.registers.value(alternate.reg);
-    const bool byBit = json.contains(u"bit");
-    if (!decider.isObject() || byBit == json.contains(u"values")) {
+    const bool byBit = json.contains("bit"_L1);
+    if (!decider.isObject() || byBit == json.contains("values"_L1)) {
         say(QStringLiteral("an alternate needs \"register\", one of this table, and either \"bit\" or \"values\""));
         return std::nullopt;
     }
-    const bool applies = byBit ? resolveBit(decider.toObject(), json.value(u"bit").toString(), alternate)
-                               : resolveValues(decider.toObject(), json.value(u"values").toArray(), alternate);
+    const bool applies = byBit ? resolveBit(decider.toObject(), json.value("bit"_L1).toString(), alternate)
+                               : resolveValues(decider.toObject(), json.value("values"_L1).toArray(), alternate);
     // An alternate exists only where the register that decides does.
     return applies && holdsFor(decider.toObject(), m_context.firmware) ? std::optional(alternate) : std::nullopt;
 }
 
 bool FieldReader::resolveBit(const QJsonObject &decider, const QString &bit, Alternate &alternate)
 {
-    const QJsonObject json = decider.value(u"bits").toObject().value(bit).toObject();
+    const QJsonObject json = decider.value("bits"_L1).toObject().value(bit).toObject();
     const auto place = bitPlace(json, 32);
     if (!place || place->second != 1) {
         say(QStringLiteral("%1 has no single bit \"%2\"").arg(alternate.reg, bit));
@@ -164,7 +168,7 @@ bool FieldReader::resolveBit(const QJsonObject &decider, const QString &bit, Alt
 bool FieldReader::resolveValues(const QJsonObject &decider, const QJsonArray &values, Alternate &alternate)
 {
     // Families extend each other: what this model's register can't be is left out, but not everything.
-    const QJsonObject possible = decider.value(u"values").toObject();
+    const QJsonObject possible = decider.value("values"_L1).toObject();
     for (const QJsonValue &value : values) {
         const std::optional<std::int64_t> number = wholeNumber(value);
         if (!number)

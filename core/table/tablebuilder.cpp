@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+using namespace Qt::StringLiterals; // keys of JSON are found quicker by them
+
 namespace dynascope {
 namespace {
 
@@ -12,6 +14,7 @@ constexpr int MostRegisters = 2000;
 constexpr int LeastBuffer = 64, MostBuffer = 65535; ///< bytes; a Sync Write of one register must fit
 constexpr int MostTables = 16;    ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
+constexpr std::size_t UsualNumbered = 128; ///< of all entries; more is made room for
 
 const QString Registers = QStringLiteral("registers");
 const QString Indirect = QStringLiteral("indirect");
@@ -74,22 +77,22 @@ void TableBuilder::readModel()
         say({}, QStringLiteral("not a name for a model"));
     m_common.model = m_model;
     m_common.modelNumber = static_cast<std::uint16_t>(numberIn(m_settings, QStringLiteral("number"), 0, 65535, {}));
-    for (const QJsonValue &name : m_settings.value(u"alsoCalled").toArray())
+    for (const QJsonValue &name : m_settings.value("alsoCalled"_L1).toArray())
         m_common.alsoCalled.append(name.toString());
     m_common.series = text(u"series");
     if (m_common.series.isEmpty())
         say({}, QStringLiteral("\"series\" is missing"));
-    m_common.addressesOnly = m_settings.value(u"addressesOnly").toBool();
+    m_common.addressesOnly = m_settings.value("addressesOnly"_L1).toBool();
     m_common.newestFirmware = readFirmware(QStringLiteral("newestFirmware"));
-    if (m_settings.contains(u"modbusNumberOffset"))
+    if (m_settings.contains("modbusNumberOffset"_L1))
         m_common.modbusNumber =
             m_common.modelNumber
             + static_cast<int>(numberIn(m_settings, QStringLiteral("modbusNumberOffset"), 1, 1000, {}));
     if (!m_common.addressesOnly)
         readAbilities();
-    if (m_settings.contains(u"axes"))
+    if (m_settings.contains("axes"_L1))
         m_common.axes = static_cast<int>(numberIn(m_settings, QStringLiteral("axes"), 1, 8, {}));
-    if (m_settings.contains(u"receiveBuffer"))
+    if (m_settings.contains("receiveBuffer"_L1))
         m_common.receiveBuffer
             = static_cast<int>(numberIn(m_settings, QStringLiteral("receiveBuffer"), LeastBuffer, MostBuffer, {}));
     m_common.manualPage = text(u"manual");
@@ -99,9 +102,9 @@ void TableBuilder::readModel()
     m_context.modelNumber = m_common.modelNumber;
     m_context.addressesOnly = m_common.addressesOnly;
     m_context.registers = m_settings.value(Registers).toObject();
-    m_context.baudRates = m_settings.value(u"baudRates").toObject();
-    m_context.scales = m_settings.value(u"scales").toObject();
-    m_context.valueLists = m_settings.value(u"valueLists").toObject();
+    m_context.baudRates = m_settings.value("baudRates"_L1).toObject();
+    m_context.scales = m_settings.value("scales"_L1).toObject();
+    m_context.valueLists = m_settings.value("valueLists"_L1).toObject();
 }
 
 void TableBuilder::readAbilities()
@@ -109,13 +112,13 @@ void TableBuilder::readAbilities()
     m_common.fastReadsFrom = readFirmware(QStringLiteral("fastReadsSince"));
     m_common.backupFrom = readFirmware(QStringLiteral("backupSince"));
     m_common.clearFrom = readFirmware(QStringLiteral("clearSince"));
-    m_common.clearsErrors = m_settings.value(u"clearsErrors").toBool();
+    m_common.clearsErrors = m_settings.value("clearsErrors"_L1).toBool();
     m_common.resetByBroadcastUntil = readFirmware(QStringLiteral("resetByBroadcastUntil"));
 }
 
 void TableBuilder::readGear()
 {
-    m_common.resolution = m_settings.contains(u"resolution")
+    m_common.resolution = m_settings.contains("resolution"_L1)
                               ? static_cast<int>(numberIn(m_settings, QStringLiteral("resolution"), 1, 100'000'000, {}))
                               : 0;
     const QString torque = QStringLiteral("torqueConstant"), gear = QStringLiteral("gearRatio");
@@ -134,7 +137,7 @@ void TableBuilder::readGear()
     const QJsonObject denominator = m_context.registers.value(ratio.denominator).toObject();
     if (both.size() != 2 || numerator.isEmpty() || denominator.isEmpty())
         return say({gear}, QStringLiteral("\"gearRatio\" must be two registers"));
-    const double above = numerator.value(u"initial").toDouble(), below = denominator.value(u"initial").toDouble();
+    const double above = numerator.value("initial"_L1).toDouble(), below = denominator.value("initial"_L1).toDouble();
     ratio.initialTurns = above >= 1 && below >= 1 ? below / above : 1.0;
 }
 
@@ -166,35 +169,39 @@ void TableBuilder::readSteps()
     m_steps = {0, NewestFirmware + 1};
     if (m_common.addressesOnly)
         return; // of no known firmware
-    for (auto it = m_context.registers.begin(); it != m_context.registers.end(); ++it)
-        collectSteps(it->toObject(), {Registers, it.key()}, m_steps);
+    for (auto it = m_context.registers.constBegin(); it != m_context.registers.constEnd(); ++it)
+        collectSteps(it->toObject(), it, m_steps);
     for (const QJsonValue &group : m_settings.value(Indirect).toArray())
-        collectSteps(group.toObject(), {Indirect}, m_steps);
+        collectSteps(group.toObject(), m_context.registers.constEnd(), m_steps);
     std::sort(m_steps.begin(), m_steps.end());
     m_steps.erase(std::unique(m_steps.begin(), m_steps.end()), m_steps.end());
     if (static_cast<int>(m_steps.size()) > MostTables)
         say({}, QStringLiteral("more than %1 kinds of firmware").arg(MostTables));
 }
 
-/// "since" and "until" of a register or group, and of the values and bits within.
-void TableBuilder::collectSteps(const QJsonObject &json, const QStringList &path, std::vector<int> &steps)
+/// "since" and "until" of a register, or where it is none of a group, and of the values and bits within.
+void TableBuilder::collectSteps(const QJsonObject &json, QJsonObject::const_iterator reg, std::vector<int> &steps)
 {
-    for (const QString &key : {QStringLiteral("since"), QStringLiteral("until")}) {
-        const QJsonValue value = json.value(key);
-        if (value.isUndefined())
-            continue;
-        const auto firmware = static_cast<int>(numberIn(json, key, 0, NewestFirmware, path));
-        steps.push_back(key == u"since" ? firmware : firmware + 1);
-        if (json.value(u"since").toInt(0) > json.value(u"until").toInt(NewestFirmware))
+    const QJsonValue since = json.value("since"_L1), until = json.value("until"_L1);
+    if (!since.isUndefined() || !until.isUndefined()) {
+        QStringList path{Indirect};
+        if (reg != m_context.registers.constEnd())
+            path = QStringList{Registers, reg.key()};
+        if (!since.isUndefined())
+            steps.push_back(static_cast<int>(numberIn(json, QStringLiteral("since"), 0, NewestFirmware, path)));
+        if (!until.isUndefined())
+            steps.push_back(static_cast<int>(numberIn(json, QStringLiteral("until"), 0, NewestFirmware, path)) + 1);
+        if (since.toInt(0) > until.toInt(NewestFirmware))
             say(path, QStringLiteral("%1: \"since\" is later than \"until\"").arg(path.last()));
     }
-    for (const char16_t *key : {u"bits", u"values", u"special"}) {
-        const QJsonValue members = json.value(QStringView(key));
+    for (const QLatin1StringView key : {"bits"_L1, "values"_L1, "special"_L1}) {
+        const QJsonValue members = json.value(key);
         if (!members.isObject())
             continue;
-        for (const QJsonValue &member : members.toObject()) {
-            if (member.isObject())
-                collectSteps(member.toObject(), path, steps);
+        const QJsonObject all = members.toObject();
+        for (auto it = all.begin(); it != all.end(); ++it) {
+            if (it->isObject())
+                collectSteps(it->toObject(), reg, steps);
         }
     }
 }
@@ -203,9 +210,10 @@ ControlTablePtr TableBuilder::build(int from, int to, bool isKnownSound)
 {
     ControlTable::Description table = m_common;
     m_context.firmware = from;
+    m_context.isKnownSound = isKnownSound;
     table.firmwareFrom = from;
     table.firmwareTo = to;
-    table.fields.reserve(static_cast<std::size_t>(m_context.registers.size()) + 2 * MostNumbered);
+    table.fields.reserve(static_cast<std::size_t>(m_context.registers.size()) + UsualNumbered);
     readRegisters(table.fields);
     readIndirect(table.fields);
     table.fields = byAddress(std::move(table.fields));
@@ -275,7 +283,7 @@ void TableBuilder::readRegisters(std::vector<Field> &fields)
             continue;
         if (it.key().contains(u'#')) {
             readNumbered(it.key(), json, fields);
-        } else if (json.contains(u"count")) {
+        } else if (json.contains("count"_L1)) {
             say({Registers, it.key()},
                 QStringLiteral("%1: \"count\" needs a # in the name, for the number").arg(it.key()));
         } else {
@@ -288,8 +296,8 @@ void TableBuilder::readNumbered(const QString &name, const QJsonObject &json, st
 {
     const QStringList path{Registers, name};
     const auto count = static_cast<int>(numberIn(json, QStringLiteral("count"), 1, MostNumbered, path));
-    int stride = json.value(u"size").toInt();
-    if (json.contains(u"stride"))
+    int stride = json.value("size"_L1).toInt();
+    if (json.contains("stride"_L1))
         stride = static_cast<int>(numberIn(json, QStringLiteral("stride"), 1, 256, path));
     add(numbered(name, 1), name, json, fields);
     if (!m_fault.isSet())
@@ -321,8 +329,8 @@ void TableBuilder::readIndirect(std::vector<Field> &fields)
         const QJsonObject group = entry.toObject();
         if (!exists(group))
             continue;
-        for (const QJsonValue &block : group.value(u"blocks").toArray())
-            readIndirectBlock(block.toObject(), group.value(u"range"), number, fields);
+        for (const QJsonValue &block : group.value("blocks"_L1).toArray())
+            readIndirectBlock(block.toObject(), group.value("range"_L1), number, fields);
     }
 }
 
@@ -333,7 +341,7 @@ void TableBuilder::readIndirectBlock(const QJsonObject &block, const QJsonValue 
     const auto count = static_cast<int>(numberIn(block, QStringLiteral("count"), 1, MostNumbered, path));
     const std::int64_t address = numberIn(block, QStringLiteral("address"), 0, 65535, path);
     const std::int64_t dataAddress = numberIn(block, QStringLiteral("dataAddress"), 0, 65535, path);
-    const QJsonObject definitions = m_settings.value(u"definitions").toObject();
+    const QJsonObject definitions = m_settings.value("definitions"_L1).toObject();
     QJsonObject pointer = definitions.value(IndirectAddress).toObject();
     QJsonObject data = definitions.value(IndirectData).toObject();
     if (range.isUndefined() || pointer.isEmpty() || data.isEmpty())

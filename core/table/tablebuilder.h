@@ -33,7 +33,7 @@ private:
     void readBaudRates();
     int readFirmware(const QString &key);
     void readSteps();
-    void collectSteps(const QJsonObject &json, const QStringList &path, std::vector<int> &steps);
+    void collectSteps(const QJsonObject &json, QJsonObject::const_iterator reg, std::vector<int> &steps);
     void readRegisters(std::vector<Field> &fields);
     void readNumbered(const QString &name, const QJsonObject &json, std::vector<Field> &fields);
     void readIndirect(std::vector<Field> &fields);

@@ -40,8 +40,10 @@ Result<ImportedTable> TableImporter::fromModel(const QByteArray &text)
     return finished();
 }
 
-void TableImporter::typeInfo(const CellRow &row, double &zero, double &lowest, double &lowestRadian) const
+void TableImporter::typeInfo(const CellRow &row, double &zero, double &lowest, double &lowestRadian)
 {
+    if (row.cells.size() < 2)
+        return say(row.line, QStringLiteral("needs name and value, with a tab between"));
     const QString name = row.cells.value(0);
     const double value = row.cells.value(1).toDouble();
     if (name == u"value_of_zero_radian_position")

@@ -27,7 +27,7 @@ private:
     static constexpr qsizetype MostColumns = 64; ///< further ones are nobody's: a name is looked up in each row
 
     std::vector<CellRow> rows(const QByteArray &text, QChar separator);
-    void typeInfo(const CellRow &row, double &zero, double &lowest, double &lowestRadian) const;
+    void typeInfo(const CellRow &row, double &zero, double &lowest, double &lowestRadian);
     void unitInfo(const CellRow &row, const QStringList &header);
     void takeUnit(Field &field, double value, const QString &unit, int line);
     void controlRow(const CellRow &row);

@@ -51,7 +51,7 @@ Result<QByteArray> readTableFile(const QString &path)
     return bytes;
 }
 
-UserTables addUserTables(Catalog &catalog, const QString &folder)
+UserTables addUserTables(Catalog &catalog, const QString &folder, const QString &except)
 {
     UserTables result;
     QStringList names = QDir(folder).entryList({QStringLiteral("*.json")}, QDir::Files | QDir::Readable, QDir::Name);
@@ -63,8 +63,11 @@ UserTables addUserTables(Catalog &catalog, const QString &folder)
         names = names.first(MostFiles);
     }
     std::vector<Waiting> waiting;
+    const Result<QByteArray> left = except.isEmpty() ? Result<QByteArray>(QByteArray()) : readTableFile(except);
     for (const QString &name : names) {
         Result<QByteArray> json = readTableFile(folder + u'/' + name);
+        if (json && left && !left->isEmpty() && *json == *left)
+            continue;
         if (json)
             waiting.push_back({name, *json, outlineOf(*json).extends});
         else

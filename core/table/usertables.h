@@ -22,8 +22,9 @@ struct UserTables {
     std::vector<RefusedTable> refused; ///< their models are as if the files weren't there
 };
 
-/// Adds every ".json" of `folder`, each after what it extends. One bad file doesn't keep the others out.
-UserTables addUserTables(Catalog &catalog, const QString &folder);
+/// Adds every ".json" of `folder`, each after what it extends. One bad file doesn't keep the others out. The file
+/// `except` stays out, and what has the same bytes.
+UserTables addUserTables(Catalog &catalog, const QString &folder, const QString &except = {});
 
 /// The bytes of a table file, bounded before anything reads them.
 Result<QByteArray> readTableFile(const QString &path);

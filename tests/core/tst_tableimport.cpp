@@ -225,6 +225,8 @@ private slots:
         model("7\t1\tID", "7\t1\tI\"D", "line 18: \"I\"D\" is not a name for a register");
         model("7\t1\tID", "65535\t2\tID", "line 18: OWN: ID: \"address\" must be a number from 0 to 65534");
         model("0.0239691227", "fast", "line 11: \"fast\" is no number");
+        model("[type info]\nname\tvalue\n", "[type info]\nname value\nvalue_of_zero_radian_position 2048\n",
+              "line 3: needs name and value, with a tab between");
         model("[control table]", "[table]", "line 17: not within [type info], [unit info] or [control table]");
         csv("address,", "place,",
             "line 1: the first line must name the columns: address, size, name and any of area, "

@@ -64,6 +64,11 @@ private slots:
         QTest::newRow("older firmware") << u"XL330-M288/52"_s << u"firmware 46 to 52"_s;
         QTest::newRow("newer than known") << u"XL330-M288/60"_s << u"Firmware 60 is newer than the newest known, 53"_s;
         QTest::newRow("doubtful") << u"YM070-210-M001-RH"_s << u"(doubtful: 0.01 V in every manual"_s;
+        QTest::newRow("values") << u"XM430-W350"_s << u"0 Current control, 1 Velocity control"_s;
+        QTest::newRow("bits") << u"XM430-W350"_s << u"bit 0 Input voltage"_s;
+        QTest::newRow("gear") << u"YM070-210-R051-RH"_s << u"geared: "_s;
+        QTest::newRow("abilities") << u"XL330-M288"_s
+                                   << u"Fast reads from firmware 46, backup from firmware 46, clear"_s;
         QTest::newRow("addresses only") << u"HX5-D20-RR"_s << u" 1149  1 ?      ?  SyncTable 1 Read Data 72"_s;
     }
 
@@ -93,6 +98,8 @@ private slots:
         QTest::addColumn<int>("code");
         QTest::addColumn<QString>("says");
         QTest::newRow("unknown") << QStringList{u"show"_s, u"XQ1"_s} << 2 << u"no model is called XQ1"_s;
+        QTest::newRow("series") << QStringList{u"show"_s, u"XL330"_s} << 2
+                                << u"no model is called XL330; nearest: XL330-M077, XL330-M288"_s;
         QTest::newRow("firmware") << QStringList{u"show"_s, u"1020/new"_s} << 2 << u"number from 0 to 255"_s;
         QTest::newRow("no file") << QStringList{u"check"_s, u"/nowhere.json"_s} << 1 << u"/nowhere.json: "_s;
         QTest::newRow("no model") << QStringList{u"show"_s} << 2 << u"required"_s;
@@ -119,6 +126,30 @@ private slots:
         const QString good = file(u"good.txt"_s, "{ \"format\": 2, \"extends\": \"x330\", "
                                                  "\"models\": { \"Own\": { \"number\": 9001 } } }\n");
         QCOMPARE(dxl({u"models"_s, u"check"_s, good}).out, u"%1: sound, 1 new model\n"_s.arg(good));
+    }
+
+    /// A file that is in use already is no hindrance to itself or to a copy, nor are others of the folder mentioned.
+    void checksWhatIsInUse()
+    {
+        file(u"bad.json"_s, "no table");
+        const QByteArray json = "{ \"format\": 2, \"extends\": \"x330\", "
+                                "\"models\": { \"Own\": { \"number\": 9001 } } }\n";
+        const QString own = file(u"own.json"_s, json);
+        const Outcome outcome = dxl({u"models"_s, u"check"_s, own});
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.out, u"%1: sound, 1 new model\n"_s.arg(own));
+        const QString copy = file(u"copy.txt"_s, json);
+        QCOMPARE(dxl({u"models"_s, u"check"_s, copy}).out, u"%1: sound, the same as %2\n"_s.arg(copy, own));
+    }
+
+    void checksATableOfTheProgram()
+    {
+        QFile table(QStringLiteral(DYNASCOPE_SOURCE_DIR) + u"/resources/controltables/x330.json"_s);
+        QVERIFY(table.open(QIODevice::ReadOnly));
+        const QString same = file(u"x330.txt"_s, table.readAll());
+        const Outcome outcome = dxl({u"models"_s, u"check"_s, same});
+        QCOMPARE(outcome.code, 0);
+        QCOMPARE(outcome.out, u"%1: sound, the same as the built-in x330.json\n"_s.arg(same));
     }
 
     void badFiles_data()
@@ -215,6 +246,23 @@ private slots:
         QVERIFY(dxl({u"models"_s, u"show"_s, u"XQ-1"_s}).out.contains(u"   64  1 RAM    RW Torque Enable"_s));
         QVERIFY(dxl({u"models"_s}).out.contains(u"from own.json"_s));
         QVERIFY(dxl({u"models"_s, u"import"_s, csv}).out.startsWith(u"{\n  \"format\": 2,"_s));
+    }
+
+    /// What it would be refused for at the next start is said when it is made.
+    void importSaysWhatIsTaken()
+    {
+        const QString csv = file(u"xq_1.csv"_s, "address,size,name\n0,2,Model Number\n");
+        const auto noted = [&csv](const QString &name, const QString &number) {
+            return dxl({u"models"_s, u"import"_s, csv, u"--name"_s, name, u"--number"_s, number});
+        };
+        const Outcome free = noted(u"XQ-1"_s, u"9001"_s);
+        QVERIFY2(free.code == 0 && free.err.isEmpty(), qPrintable(free.err));
+        const Outcome name = noted(u"XM430-W350"_s, u"9001"_s);
+        QCOMPARE(name.code, 0);
+        QVERIFY2(name.err.contains(u"this name is taken by XM430-W350 (number 1020)"_s), qPrintable(name.err));
+        const Outcome number = noted(u"XQ-1"_s, u"1020"_s);
+        QVERIFY2(number.code == 0 && number.err.contains(u"the number 1020 is taken by XM430-W350"_s),
+                 qPrintable(number.err));
     }
 
     void aBadFileOfOnesOwnIsSaid()
