@@ -194,8 +194,7 @@ void MoveRun::checked(const Result<MovePlan> &plan, bool goesOn)
 Device *MoveRun::deviceOf(const MoveStep &step) const
 {
     const auto modelNumber = m_plan.devices[step.device].place.modelNumber;
-    Device *device =
-        m_line ? m_line->deviceAt(static_cast<std::uint8_t>(step.from.id), step.from.baudRate) : nullptr;
+    Device *device = m_line ? m_line->deviceAt(static_cast<std::uint8_t>(step.from.id), step.from.baudRate) : nullptr;
     return device && device->modelNumber() == modelNumber ? device : nullptr;
 }
 
@@ -259,8 +258,8 @@ void MoveRun::locate(const Error &why)
             return lookForMoved(context, from, to);
         },
         [this, why, step](const Result<Found> &found) {
-            const bool pressedAgain = !found && (found.error().kind == ErrorKind::Stopped
-                                                 || found.error().kind == ErrorKind::Cancelled);
+            const bool pressedAgain =
+                !found && (found.error().kind == ErrorKind::Stopped || found.error().kind == ErrorKind::Cancelled);
             if (pressedAgain && m_line && m_line->state() == BusThread::State::Open)
                 return locate(why);
             if (!found) {
@@ -268,6 +267,8 @@ void MoveRun::locate(const Error &why)
                     lost->setState(Device::State::Silent);
                 return halt(found.error().kind == ErrorKind::NotConfirmed ? found.error() : why);
             }
+            if (why.kind == ErrorKind::NotConfirmed && MovePlace{found->baudRate, found->id} == step.from)
+                return halt(why); // which says so already
             const QString &name = m_plan.devices[step.device].place.name;
             const MovePlace place{found->baudRate, found->id};
             if (place == step.to)

@@ -44,10 +44,10 @@ public:
 
     /// What another run left: State is Halted afterwards. NotFound, BadFile.
     Result<void> takeLeft();
-    void look();                     ///< where the devices of what was left are now; moves nobody
+    void look();                      ///< where the devices of what was left are now; moves nobody
     void goOn(bool mayTurnTorqueOff); ///< looks, then moves on
-    void cancel();                   ///< before the next step
-    void forget();                   ///< leaves everybody where they are, and removes the file
+    void cancel();                    ///< before the next step
+    void forget();                    ///< leaves everybody where they are, and removes the file
 
 signals:
     void changed();

@@ -65,8 +65,8 @@ Result<void> takeTables(MovePlan &plan, const Catalog &catalog)
                            tr("the plan that was left names model %1, which has no control table; nothing was written")
                                .arg(device.place.modelNumber));
         }
-        const MoveDevice known = moveDevice(foundAt(device, {device.place.baudRate, device.place.id}), *table,
-                                            device.place.name);
+        const MoveDevice known =
+            moveDevice(foundAt(device, {device.place.baudRate, device.place.id}), *table, device.place.name);
         device.idAddress = known.idAddress;
         device.baudAddress = known.baudAddress;
         device.rates = known.rates;

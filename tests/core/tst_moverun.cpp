@@ -13,14 +13,21 @@ constexpr int Slow = 57600, Fast = 1'000'000;
 
 /// A program on a bus that outlives it.
 struct Program {
-    Program(VirtualFactory &factory, const Catalog &catalog, const QString &folder, const QString &portName = u"virtual"_s)
-        : journal(folder + u"/journal"_s), session(factory, catalog), commands(session, &journal), stop(session, commands)
+    Program(VirtualFactory &factory, const Catalog &catalog, const QString &folder,
+            const QString &portName = u"virtual"_s)
+        : journal(folder + u"/journal"_s)
+        , session(factory, catalog)
+        , commands(session, &journal)
+        , stop(session, commands)
     {
         std::vector<Found> found;
         for (const auto &servo : factory.simulated.servos())
-            found.push_back({static_cast<std::uint8_t>(servo->id()), servo->baudRate(),
+            found.push_back({static_cast<std::uint8_t>(servo->id()),
+                             servo->baudRate(),
                              static_cast<std::uint16_t>(servo->table().modelNumber()),
-                             static_cast<std::uint8_t>(servo->firmware()), false, {}});
+                             static_cast<std::uint8_t>(servo->firmware()),
+                             false,
+                             {}});
         line = &session.open(portName, Slow);
         for (const Found &each : found)
             line->heard(each);

@@ -68,6 +68,10 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
         tr("Give this device another ID"), &DeviceActions::changeId);
     m_changeBaud = add(key("changeBaud"), key("baud"), tr("Change baud rate…"), key("Ctrl+Shift+U"),
                        tr("Let this device work at another baud rate"), &DeviceActions::changeBaud);
+    m_moveMany = add(key("moveMany"), key("id"), tr("Move to other IDs or baud…"), key("Ctrl+Shift+M"),
+                     tr("New IDs and baud rates for the selected devices, or for all of a line, planned before "
+                        "anything is written"),
+                     &DeviceActions::moveMany);
     m_workAtBaud = add(key("workAtBaud"), key("parked"), tr("Work at this baud"), key("Ctrl+Shift+W"),
                        tr("Move the line to this baud rate; devices at others are parked"), &DeviceActions::workAtBaud);
     m_clearMultiTurn = add(key("clearMultiTurn"), key("turns"), tr("Clear multi-turn"), QString(),
@@ -102,7 +106,7 @@ QAction *DeviceActions::add(const QString &name, const QString &iconName, const 
 std::vector<QAction *> DeviceActions::menuActions() const
 {
     return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,     nullptr,        m_rename,
-            m_changeId, m_changeBaud, m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
+            m_changeId, m_changeBaud, m_moveMany,   m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
 }
 
 void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate)
@@ -162,6 +166,7 @@ void DeviceActions::update()
     m_rename->setEnabled(this->devices().size() == 1);
     m_changeId->setEnabled(one && one->table().find(u"ID"));
     m_changeBaud->setEnabled(one && one->table().find(u"Baud Rate"));
+    m_moveMany->setEnabled(m_line && m_line->state() == BusThread::State::Open && !m_line->devices().empty());
     m_workAtBaud->setEnabled(m_line && m_baudRate > 0 && m_line->state() == BusThread::State::Open
                              && m_line->baudRate() != m_baudRate);
     m_workAtBaud->setText(
@@ -317,6 +322,22 @@ void DeviceActions::openChangeBaud(Device *device)
 {
     if (device)
         open<ChangeBaudDialog>(*device, QStringLiteral("changeBaudDialog"));
+}
+
+/// The selected devices, or where a line or one of its rates is selected all that stand there.
+void DeviceActions::moveMany()
+{
+    if (!m_line)
+        return;
+    std::vector<Device *> devices = reachable();
+    std::erase_if(devices, [this](const Device *device) { return device->line() != m_line; });
+    if (devices.empty()) {
+        for (const auto &device : m_line->devices()) {
+            if (m_baudRate == 0 || device->baudRate() == m_baudRate)
+                devices.push_back(device.get());
+        }
+    }
+    emit moveRequested(m_line, devices);
 }
 
 void DeviceActions::workAtBaud()

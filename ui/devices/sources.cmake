@@ -8,5 +8,9 @@ target_sources(dynascope_ui PRIVATE
     devices/devicetreemodel.cpp devices/devicetreemodel.h
     devices/devicetreetexts.cpp
     devices/factoryresetdialog.cpp devices/factoryresetdialog.h
+    devices/leftmoves.cpp devices/leftmoves.h
+    devices/movedialog.cpp devices/movedialog.h
+    devices/movestepsmodel.cpp devices/movestepsmodel.h
+    devices/movewishes.cpp devices/movewishes.h
     devices/nicknames.cpp devices/nicknames.h
 )
