@@ -6,6 +6,7 @@
 #include "core/session/session.h"
 
 #include <map>
+#include <memory>
 
 namespace dynascope {
 
@@ -35,6 +36,9 @@ public:
     void setLed(Device &device, bool on, Done done = {});
     void reboot(Device &device, Done done = {});
     void factoryReset(Device &device, ResetOption option, Done done = {});
+    /// One after the other, each found again before the next; refused before the first where two would end at one place.
+    /// The outcome is the first failure; the others are reset nevertheless, unless STOP or the line ended it.
+    void factoryReset(const std::vector<Device *> &devices, ResetOption option, Done done = {});
     void clearMultiTurn(Device &device, Done done = {});
     void ping(Device &device, Done done = {});
 
@@ -86,6 +90,8 @@ private:
                       const Done &done);
     void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
                       const Done &report);
+    struct Resets;
+    void resetNext(const std::shared_ptr<Resets> &resets);
     void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
 
     Session &m_session;

@@ -30,6 +30,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
     session/reopener.cpp session/reopener.h
+    session/resetplan.cpp session/resetplan.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h

@@ -7,7 +7,6 @@
 #include "ui/common/texts.h"
 #include "ui/devices/changebauddialog.h"
 #include "ui/devices/changeiddialog.h"
-#include "ui/devices/factoryresetdialog.h"
 #include "ui/devices/nicknames.h"
 
 #include <QInputDialog>
@@ -18,32 +17,6 @@
 #include <algorithm>
 
 namespace dynascope {
-
-namespace {
-
-constexpr std::size_t MostNamed = 6;
-
-QString subjectOf(const std::vector<Device *> &devices)
-{
-    QStringList keys;
-    for (const Device *device : devices)
-        keys << QString::number(device->key());
-    return keys.join(u' ');
-}
-
-QString namesOf(const std::vector<Device *> &devices)
-{
-    QStringList names;
-    for (const Device *device : devices) {
-        if (names.size() < static_cast<qsizetype>(MostNamed))
-            names << device->displayName();
-    }
-    if (devices.size() > MostNamed)
-        names << DeviceActions::tr("%1 more").arg(devices.size() - MostNamed);
-    return names.join(QStringLiteral(", "));
-}
-
-} // namespace
 
 DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     : QObject(window)
@@ -174,8 +147,31 @@ void DeviceActions::update()
     m_clearMultiTurn->setEnabled(any);
     m_saveHybrid->setVisible(has("Hybrid Save")); // of one series only; before it is enabled: Qt enables nothing hidden
     m_saveHybrid->setEnabled(m_saveHybrid->isVisible());
-    m_factoryReset->setEnabled(one && one->isKnownModel());
+    m_factoryReset->setEnabled(any && std::ranges::all_of(devices, [&devices](const Device *device) {
+        return device->isKnownModel() && device->line() == devices.front()->line();
+    }));
     m_forget->setEnabled(!this->devices().empty());
+}
+
+QString DeviceActions::subjectOf(const std::vector<Device *> &devices)
+{
+    QStringList keys;
+    for (const Device *device : devices)
+        keys << QString::number(device->key());
+    return keys.join(u' ');
+}
+
+QString DeviceActions::namesOf(const std::vector<Device *> &devices)
+{
+    static constexpr std::size_t MostNamed = 6;
+    QStringList names;
+    for (const Device *device : devices) {
+        if (names.size() < static_cast<qsizetype>(MostNamed))
+            names << device->displayName();
+    }
+    if (devices.size() > MostNamed)
+        names << tr("%1 more").arg(devices.size() - MostNamed);
+    return names.join(QStringLiteral(", "));
 }
 
 template <typename Dialog>
@@ -259,26 +255,6 @@ void DeviceActions::readAll()
     }
 }
 
-void DeviceActions::reboot()
-{
-    const std::vector<Device *> devices = reachable();
-    const auto run = [this](const std::vector<Device *> &present) {
-        for (Device *device : present)
-            m_workbench.commands.reboot(*device);
-    };
-    const auto held = std::ranges::count_if(devices, &Device::isTorqueOn);
-    if (held == 0)
-        return run(devices);
-    confirm(tr("Reboot"),
-        devices.size() == 1
-            ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.")
-                  .arg(devices.front()->displayName())
-            : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.")
-                      .arg(held)
-                  + QStringLiteral("\n\n") + namesOf(devices),
-        devices, run);
-}
-
 void DeviceActions::rename()
 {
     const std::vector<Device *> devices = this->devices();
@@ -347,12 +323,6 @@ void DeviceActions::workAtBaud()
     m_workbench.commands.workAtBaud(*m_line, m_baudRate);
 }
 
-void DeviceActions::clearMultiTurn()
-{
-    for (Device *device : reachable())
-        m_workbench.commands.clearMultiTurn(*device);
-}
-
 void DeviceActions::saveHybrid()
 {
     static constexpr int Save = 1;
@@ -378,12 +348,6 @@ void DeviceActions::saveHybrid()
         };
         m_workbench.commands.writeField(*device, field, Save, say);
     }
-}
-
-void DeviceActions::factoryReset()
-{
-    if (Device *device = single())
-        open<FactoryResetDialog>(*device, QStringLiteral("factoryResetDialog"));
 }
 
 void DeviceActions::forget()

@@ -44,6 +44,8 @@ private:
     std::vector<Device *> living(const std::vector<DeviceKey> &keys) const;
     std::vector<Device *> reachable() const;
     Device *single() const;
+    static QString subjectOf(const std::vector<Device *> &devices); ///< for present()
+    static QString namesOf(const std::vector<Device *> &devices);
     template <typename Dialog>
     void open(Device &device, const QString &name); ///< the one about it that is open comes to the front
     void turnTorqueOn(const std::vector<Device *> &devices);

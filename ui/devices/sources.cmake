@@ -1,7 +1,7 @@
 target_sources(dynascope_ui PRIVATE
     devices/changebauddialog.cpp devices/changebauddialog.h
     devices/changeiddialog.cpp devices/changeiddialog.h
-    devices/deviceactions.cpp devices/deviceactions.h
+    devices/deviceactions.cpp devices/deviceactions.h devices/deviceactions_restart.cpp
     devices/devicedelegate.cpp devices/devicedelegate.h
     devices/devicedialog.cpp devices/devicedialog.h
     devices/devicepanel.cpp devices/devicepanel.h
@@ -13,4 +13,5 @@ target_sources(dynascope_ui PRIVATE
     devices/movestepsmodel.cpp devices/movestepsmodel.h
     devices/movewishes.cpp devices/movewishes.h
     devices/nicknames.cpp devices/nicknames.h
+    devices/resetmanydialog.cpp devices/resetmanydialog.h
 )
