@@ -30,6 +30,7 @@ public:
     bool isBusy() const { return m_state == State::Looking || m_state == State::Moving; }
     const MovePlan &plan() const { return m_plan; } ///< that of start() or takeLeft(), brought up to date
     const QString &problem() const { return m_problem; }
+    void dismissProblem() { m_problem.clear(); }
     const MoveFile &file() const { return m_file; }
 
     /// Tries the rates of these models on the port, and asks for the Secondary IDs: before the first planFor().

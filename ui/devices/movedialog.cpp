@@ -117,7 +117,10 @@ void MoveDialog::build()
 void MoveDialog::connectParts(LineSession &line)
 {
     connect(&m_run, &MoveRun::changed, this, &MoveDialog::update);
-    connect(m_wishes, &MoveWishes::changed, this, &MoveDialog::replan);
+    connect(m_wishes, &MoveWishes::changed, this, [this] {
+        m_run.dismissProblem(); // of other wishes
+        replan();
+    });
     connect(m_torqueOff, &QCheckBox::toggled, this, &MoveDialog::updateButtons);
     connect(&line, &LineSession::stateChanged, this, &MoveDialog::update);
     connect(&line, &LineSession::deviceChanged, this, &MoveDialog::update);
@@ -230,7 +233,9 @@ void MoveDialog::showIdle()
     else if (!m_planned)
         setNote(MessageKind::Error, asSentence(m_planned.error().text));
     else if (!m_run.isSurveyed())
-        setNote(MessageKind::Error, asSentence(m_run.problem()));
+        setNote(MessageKind::Error, asSentence(m_run.problem().isEmpty() ? tr(
+                                                   "The line could not be looked at: close this, and open it again")
+                                                                         : m_run.problem()));
     else if (m_planned->steps.empty())
         setNote(MessageKind::Info, tr("Everybody stays where they are. Choose new IDs or baud rates above."));
     else if (held > 0 && !m_torqueOff->isChecked())

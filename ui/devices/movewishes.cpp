@@ -35,6 +35,11 @@ std::set<int> ratesOf(const Device &device, const std::function<bool(int)> &offe
 void fill(QComboBox &combo, const std::set<int> &rates, int chosen)
 {
     const QSignalBlocker blocker(combo);
+    std::set<int> present;
+    for (int i = 0; i < combo.count(); ++i)
+        present.insert(combo.itemData(i).toInt());
+    if (present == rates) // it may be open
+        return;
     combo.clear();
     for (const int rate : rates)
         combo.addItem(baudText(rate), rate);
