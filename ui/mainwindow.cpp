@@ -14,6 +14,7 @@
 #include "ui/connection/connector.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
+#include "ui/devices/leftmoves.h"
 #include "ui/devices/nicknames.h"
 #include "ui/health/healthpanel.h"
 #include "ui/journal/undoactions.h"
@@ -183,6 +184,11 @@ void MainWindow::connectDevices()
         m_connector->disconnectFrom(*line);
     });
     connect(&m_devices->actions(), &DeviceActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    auto *moves = new LeftMoves(m_workbench, this);
+    connect(moves, &LeftMoves::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(moves, &LeftMoves::retracted, m_messages, &MessageBar::retractTopic);
+    connect(&m_devices->actions(), &DeviceActions::moveRequested, moves,
+            [moves](LineSession *line, const std::vector<Device *> &devices) { moves->open(*line, devices); });
     connect(&m_devices->actions(), &DeviceActions::torqueEnabled, m_guard, &TorqueGuard::noteEnabled);
     connect(m_guard, &TorqueGuard::closeAgreed, this, &QWidget::close, Qt::QueuedConnection);
     connect(m_table, &TablePanel::notWritten, this,

@@ -83,7 +83,7 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
         return output.fail(connection.error());
     Journal journal(isJournalled(options) ? Journal::usualFolder() : QString(), Journal::Reading::Newest);
     QObject::connect(&journal, &Journal::failed,
-                     [&output](const QString &why) { output.note(why + QStringLiteral("; nothing is noted")); });
+                     [&output](const QString &why) { output.note(why + QStringLiteral("; it is tried again before the end")); });
     return performOnLine({options, catalog, (*connection)->bus(), output, journal});
 }
 

@@ -7,7 +7,7 @@
 #include "app/dxl/target.h"
 #include "app/dxl/terminal.h"
 #include "core/bus/messages.h"
-#include "core/session/deviceplace.h"
+#include "core/session/resetplan.h"
 
 namespace dynascope::dxl {
 
@@ -113,6 +113,31 @@ Result<DevicePlace> placeAfter(const Device &device, ResetOption option)
     if (option != ResetOption::AllButIdAndBaud)
         after.baudRate = device.table()->baudRate(static_cast<int>(baud->initial.value_or(1))).value_or(57600);
     return after;
+}
+
+/// Of several at once two may not end at one place.
+Result<void> checkAfterwards(const Work &work, const std::deque<Device> &devices)
+{
+    std::vector<ResetMove> resets;
+    for (const Device &device : devices) {
+        if (const auto after = placeAfter(device, work.options.reset)) // else its own turn says why
+            resets.push_back({placeOf(device), *after});
+    }
+    const auto order = planResets(resets, {});
+    if (!order)
+        return failure(order.error().kind, order.error().text + QStringLiteral("; nothing was sent"));
+    return {};
+}
+
+/// What a Factory Reset leaves as it is.
+QString survives(ResetOption option)
+{
+    switch (option) {
+    case ResetOption::All: return QStringLiteral("ID and baud rate go, too");
+    case ResetOption::AllButId: return QStringLiteral("the baud rate goes, too, the ID stays");
+    case ResetOption::AllButIdAndBaud: break;
+    }
+    return QStringLiteral("ID and baud rate stay");
 }
 
 Result<void> checkAway(Bus &bus, const Device &device)
@@ -253,11 +278,13 @@ ExitCode rebootCommand(const Work &work)
 
 ExitCode resetCommand(const Work &work)
 {
-    const QString what = QStringLiteral("a Factory Reset (%1) of %2 overwrites the EEPROM")
-                             .arg(resetName(work.options.reset), idsText(work.options));
+    const QString what = QStringLiteral("a Factory Reset (%1) of %2 overwrites the EEPROM (%3)")
+                             .arg(resetName(work.options.reset), idsText(work.options), survives(work.options.reset));
     if (!mayGoOn(work, what))
         return ExitCode::Usage;
-    return forEachDevice(work, [&](Device &device) { return resetOne(work, device); });
+    return forEachDevice(
+        work, [&](Device &device) { return resetOne(work, device); },
+        [&](const std::deque<Device> &devices) { return checkAfterwards(work, devices); });
 }
 
 ExitCode clearCommand(const Work &work)

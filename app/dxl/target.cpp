@@ -42,9 +42,12 @@ Targets findTargets(const Work &work, std::size_t results, bool blind)
     return targets;
 }
 
-ExitCode forEachDevice(const Work &work, const std::function<Result<void>(Device &)> &action)
+ExitCode forEachDevice(const Work &work, const std::function<Result<void>(Device &)> &action,
+                       const std::function<Result<void>(const std::deque<Device> &)> &before)
 {
     Targets targets = findTargets(work, 1);
+    if (const auto may = before ? before(targets.devices) : Result<void>(); !may)
+        return work.output.refuse(may.error());
     for (Device &device : targets.devices) {
         if (targets.ended || work.output.isClosed())
             break;

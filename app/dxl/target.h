@@ -27,7 +27,9 @@ bool endsAll(const Error &error);
 
 /// Carries `action` out on each device of the command, once it has said what it is. Failures are printed, and take a
 /// place in the JSON.
-ExitCode forEachDevice(const Work &work, const std::function<Result<void>(Device &)> &action);
+/// `before` sees all of them first: where it fails, nothing is done.
+ExitCode forEachDevice(const Work &work, const std::function<Result<void>(Device &)> &action,
+                       const std::function<Result<void>(const std::deque<Device> &)> &before = {});
 
 /// Prints why something failed with a device; in a JSON array a place for it.
 void showDeviceFailure(const Work &work, std::uint8_t id, const Error &error);

@@ -6,6 +6,7 @@
 #include "core/session/session.h"
 
 #include <map>
+#include <memory>
 
 namespace dynascope {
 
@@ -35,6 +36,9 @@ public:
     void setLed(Device &device, bool on, Done done = {});
     void reboot(Device &device, Done done = {});
     void factoryReset(Device &device, ResetOption option, Done done = {});
+    /// One after the other, each found again before the next; refused before the first where two would end at one place.
+    /// The outcome is the first failure; the others are reset nevertheless, unless STOP or the line ended it.
+    void factoryReset(const std::vector<Device *> &devices, ResetOption option, Done done = {});
     void clearMultiTurn(Device &device, Done done = {});
     void ping(Device &device, Done done = {});
 
@@ -45,6 +49,9 @@ public:
     void changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done done = {});
     /// The line itself: "work at this baud". Devices elsewhere are parked. Refused where the port can't do it.
     void workAtBaud(LineSession &line, int baudRate, Done done = {});
+
+    /// Another part of the program has moved it, and found it there.
+    void moved(DeviceKey key, const Found &found);
 
     /// While STOP holds, torque-on and goal writes are refused.
     void setStopped(bool stopped) { m_stopped = stopped; }
@@ -81,9 +88,10 @@ private:
     void awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done);
     void finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
                       const Done &done);
-    void moved(DeviceKey key, const Found &found);
     void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
                       const Done &report);
+    struct Resets;
+    void resetNext(const std::shared_ptr<Resets> &resets);
     void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
 
     Session &m_session;

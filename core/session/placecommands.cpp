@@ -3,6 +3,7 @@
 #include "core/session/commands.h"
 
 #include "core/session/procedures/atbaud.h"
+#include "core/session/resetplan.h"
 
 #include <QTimer>
 
@@ -209,6 +210,48 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                 present->setState(Device::State::Rebooting);
             awaitReturn(key, from, to, ReturnAttempts, report);
         });
+}
+
+struct Commands::Resets {
+    std::vector<DeviceKey> keys; ///< the next one last
+    ResetOption option = ResetOption::AllButIdAndBaud;
+    Done done;
+    Result<void> outcome;
+};
+
+void Commands::factoryReset(const std::vector<Device *> &devices, ResetOption option, Done done)
+{
+    const auto order = resetOrder(devices, option);
+    if (!order)
+        return refuse(devices.empty() ? nullptr : devices.front(), order.error(), done);
+    auto resets = std::make_shared<Resets>();
+    resets->option = option;
+    resets->done = std::move(done);
+    for (const Device *device : *order)
+        resets->keys.insert(resets->keys.begin(), device->key());
+    resetNext(resets);
+}
+
+void Commands::resetNext(const std::shared_ptr<Resets> &resets)
+{
+    Device *next = nullptr;
+    while (!next && !resets->keys.empty()) {
+        next = m_session.device(resets->keys.back()); // who is gone meanwhile is passed over
+        resets->keys.pop_back();
+    }
+    if (!next) {
+        if (resets->done)
+            resets->done(resets->outcome);
+        return;
+    }
+    factoryReset(*next, resets->option, [this, resets](const Result<void> &result) {
+        if (!result && resets->outcome)
+            resets->outcome = result;
+        const ErrorKind kind = result ? ErrorKind::NotConfirmed : result.error().kind;
+        if (kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled || kind == ErrorKind::PortLost)
+            resets->keys.clear();
+        resetNext(resets);
+    });
 }
 
 void Commands::clearMultiTurn(Device &device, Done done)

@@ -18,6 +18,8 @@ target_sources(dynascope_core PRIVATE
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
+    session/moverun.cpp session/moverun.h
+    session/moves.cpp session/moves.h
     session/neighbours.cpp session/neighbours.h
     session/placecommands.cpp
     session/procedures/atbaud.h
@@ -28,6 +30,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
     session/reopener.cpp session/reopener.h
+    session/resetplan.cpp session/resetplan.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h

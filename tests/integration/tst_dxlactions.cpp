@@ -94,6 +94,18 @@ private slots:
         QCOMPARE(m_bus->dxl(u"ping 1,2").code, 0);
     }
 
+    void resetsThatWouldMeetAreRefusedBeforeTheFirst()
+    {
+        m_bus->set(2, 57600, u"Return Delay Time", 3);
+        const Outcome outcome = m_bus->dxl(u"reset all 2,4 --yes");
+        QCOMPARE(outcome.code, 2);
+        QVERIFY2(isOneSentence(outcome.err) && outcome.err.contains(u"would both end at ID 1 at 57600 bps"),
+                 qPrintable(outcome.err));
+        QCOMPARE(m_bus->value(2, 57600, u"Return Delay Time"), 3);
+        QCOMPARE(m_bus->dxl(u"reset all-but-id 2,4 --yes").code, 0);
+        QCOMPARE(m_bus->value(2, 57600, u"Return Delay Time"), 250);
+    }
+
     void resetAsksAPerson_data()
     {
         QTest::addColumn<QByteArray>("answer");
@@ -118,7 +130,8 @@ private slots:
         QCOMPARE(process.exitCode(), code);
         const QByteArray says = process.readAllStandardError();
         QVERIFY2(
-            says.startsWith("dxl: a Factory Reset (all-but-id) of device 2 overwrites the EEPROM. Type yes to go on:"),
+            says.startsWith("dxl: a Factory Reset (all-but-id) of device 2 overwrites the EEPROM (the baud rate "
+                            "goes, too, the ID stays). Type yes to go on:"),
             says.constData());
         QCOMPARE(m_bus->value(2, 57600, u"Return Delay Time"), code == 0 ? 250 : 3);
     }

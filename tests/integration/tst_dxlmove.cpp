@@ -76,11 +76,38 @@ private slots:
         QCOMPARE(stopped.code, 1);
         QVERIFY2(stopped.err.contains(u"dxl move --resume goes on"_s), qPrintable(stopped.err));
         QCOMPARE(model(1, 1'000'000), u"XM430-W350"_s);
-        QVERIFY(m_bus->dxl(u"scan").err.contains(u"were left half done"_s)); // whatever is started next
+        QVERIFY(m_bus->dxl(u"scan").err.contains(u"was interrupted"_s)); // whatever is started next
         QCOMPARE(m_bus->dxl(u"move 3=4").code, 2);
         QCOMPARE(m_bus->dxl(u"move --resume --torque-off").code, 0);
         QCOMPARE(model(3, 1'000'000), u"XM430-W350"_s);
-        QVERIFY(!m_bus->dxl(u"--baud 1000000 scan").err.contains(u"were left half done"_s));
+        QVERIFY(!m_bus->dxl(u"--baud 1000000 scan").err.contains(u"was interrupted"_s));
+    }
+
+    /// Killed between the last write and the note of its end: an undo would look for it where it was.
+    void aStepThatWasDoneIsNotedAsDone()
+    {
+        MovePlan plan;
+        MoveDevice device;
+        device.place.id = 3;
+        device.place.baudRate = 57600;
+        device.place.modelNumber = 1020;
+        device.place.name = u"XM430-W350 (ID 3)"_s;
+        m_bus->call([&](sim::SimulatedBus &bus, LineTime) { device.firmware = bus.servo(3, 57600)->firmware(); });
+        device.goal = {57600, 9};
+        plan.devices = {device};
+        plan.steps = {{0, {57600, 3}, {57600, 9}, false}};
+        QVERIFY(MoveFile(MoveFile::usualFolder(), m_bus->path(), {}).save(plan));
+        m_bus->set(3, 57600, u"ID", 9);
+        QCOMPARE(m_bus->dxl(u"move --resume --dry-run").code, 0); // looks, and notes nothing
+        const std::size_t before = Journal(Journal::usualFolder()).entries().size();
+        const Outcome outcome = m_bus->dxl(u"move --resume");
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.code, 0);
+        const Journal journal(Journal::usualFolder());
+        QCOMPARE(journal.entries().size(), before + 1);
+        QCOMPARE(journal.entries().back().state, JournalState::Done);
+        QCOMPARE(journal.entries().back().movedTo, std::optional(JournalPlace{9, 57600}));
+        QVERIFY(!MoveFile(MoveFile::usualFolder(), m_bus->path(), {}).exists());
     }
 
 private:

@@ -121,7 +121,8 @@ private slots:
     void dialogs_data()
     {
         QTest::addColumn<QByteArray>("action");
-        for (const char *name : {"renameAction", "changeIdAction", "changeBaudAction", "factoryResetAction",
+        for (const char *name :
+             {"renameAction", "changeIdAction", "changeBaudAction", "moveManyAction", "factoryResetAction",
                  "scanOptionsAction", "libraryAction", "shortcutsAction", "aboutAction"})
             QTest::newRow(name) << QByteArray(name);
     }

@@ -3,9 +3,12 @@
 #include "tests/support/workbenchfixture.h"
 #include "ui/devices/deviceactions.h"
 
+#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QSignalSpy>
+#include <QTreeWidget>
 
 using namespace dynascope;
 
@@ -82,9 +85,46 @@ private slots:
         trigger("torqueOffAction");
         for (const Device *device : devices)
             QTRY_VERIFY(!device->isTorqueOn());
+        QTRY_VERIFY(!m_window->findChild<QMessageBox *>(QStringLiteral("confirmBox")));
         trigger("rebootAction");
+        box = m_window->findChild<QMessageBox *>(QStringLiteral("confirmBox"));
+        QVERIFY(box);
+        QVERIFY2(box->text().contains(QStringLiteral("EEPROM, ID and baud rate stay")), qPrintable(box->text()));
+        QTest::mouseClick(box->findChild<QPushButton *>(QStringLiteral("confirmButton")), Qt::LeftButton);
         for (const Device *device : devices)
             QTRY_COMPARE(device->state(), Device::State::Rebooting);
+    }
+
+    void severalAreResetOneAfterTheOther()
+    {
+        m_window.reset();
+        m_bench = std::make_unique<test::WorkbenchFixture>(QStringLiteral("XM430-W350@1000000:1,XL430-W250@1000000:4"));
+        m_line = &m_bench->session.open(QStringLiteral("sim"), 1000000);
+        m_line->heard({1, 1000000, 1020, 45, false, {}});
+        m_line->heard({4, 1000000, 1060, 45, false, {}});
+        m_window = std::make_unique<QWidget>();
+        m_window->show();
+        m_actions = new DeviceActions(m_bench->workbench(), m_window.get());
+        QTRY_COMPARE(m_line->state(), BusThread::State::Open);
+        const std::vector<Device *> devices = m_bench->session.devices();
+        select(devices);
+        trigger("factoryResetAction");
+        auto *dialog = m_window->findChild<QDialog *>(QStringLiteral("resetManyDialog"));
+        QVERIFY(dialog);
+        const auto part = [dialog](const char *name) { return dialog->findChild<QWidget *>(QLatin1String(name)); };
+        const auto note = [&] { return qobject_cast<QLabel *>(part("note"))->text(); };
+        auto *list = qobject_cast<QTreeWidget *>(part("resetList"));
+        QCOMPARE(list->topLevelItem(1)->text(2), list->topLevelItem(1)->text(1)); // it stays where it is
+        qobject_cast<QRadioButton *>(part("resetAll"))->click(); // both to ID 1
+        QVERIFY(!part("acceptButton")->isEnabled());
+        QVERIFY2(note().contains(QStringLiteral("would both end at ID 1 at 57600 bps")), qPrintable(note()));
+        qobject_cast<QRadioButton *>(part("resetKeepId"))->click();
+        QVERIFY2(note().contains(QStringLiteral("some will be parked")), qPrintable(note()));
+        QVERIFY(list->topLevelItem(1)->text(2).startsWith(QStringLiteral("ID 4 at 57")));
+        QTest::mouseClick(part("acceptButton"), Qt::LeftButton);
+        for (const Device *device : devices)
+            QTRY_COMPARE_WITH_TIMEOUT(device->baudRate(), 57600, 10000); // found there by itself
+        QCOMPARE(m_bench->session.devices(), devices);
     }
 
     void hybridRegistersAreSaved()

@@ -50,7 +50,8 @@ private slots:
     void takeNothingFromStop_data()
     {
         QTest::addColumn<QByteArray>("action");
-        for (const char *name : {"renameAction", "changeIdAction", "changeBaudAction", "factoryResetAction",
+        for (const char *name :
+             {"renameAction", "changeIdAction", "changeBaudAction", "moveManyAction", "factoryResetAction",
                                  "rebootAction", "shortcutsAction", "aboutAction", "savePictureAction", "quitAction"})
             QTest::newRow(name) << QByteArray(name);
     }

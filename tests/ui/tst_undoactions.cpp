@@ -10,6 +10,7 @@
 #include <QAction>
 #include <QDialog>
 #include <QPushButton>
+#include <QTranslator>
 #include <QTreeView>
 
 using namespace dynascope;
@@ -143,6 +144,44 @@ private slots:
         QCOMPARE(text(2, JournalColumn::State), u"undone"_s);
         QTRY_VERIFY(!undo->isEnabled()); // still selected, and undone
         QCOMPARE(undo->toolTip(), u"Entry 1 is undone already"_s);
+    }
+
+    void theCursorStaysWithItsEntry()
+    {
+        m_world->write(u"Moving Threshold", 33);
+        m_world->write(u"LED", 1);
+        m_world->action("journalAction").trigger();
+        QTRY_VERIFY(m_world->dialog("journalDialog"));
+        auto *view = m_world->dialog("journalDialog")->findChild<QTreeView *>(u"journalView"_s);
+        QTRY_COMPARE(view->model()->rowCount(), 2);
+        view->setCurrentIndex(view->model()->index(1, 0)); // the older one
+        m_world->write(u"LED", 0);
+        QTRY_COMPARE(view->model()->rowCount(), 3);
+        QCOMPARE(view->currentIndex().row(), 2);
+        QVERIFY(view->selectionModel()->isRowSelected(2) && !view->selectionModel()->isRowSelected(1));
+        view->setFocus();
+        QTest::keyClick(view, Qt::Key_Up);
+        QCOMPARE(view->currentIndex().row(), 1);
+    }
+
+    void itsWordsCanBeTranslated()
+    {
+        struct Marking final : QTranslator {
+            QString translate(const char *context, const char *text, const char *, int) const override
+            {
+                return QLatin1String(context) == u"dynascope::JournalModel" ? u'*' + QString::fromUtf8(text) : QString();
+            }
+            bool isEmpty() const override { return false; }
+        } marking;
+        m_world->commands.reboot(*m_world->device());
+        QTRY_COMPARE(m_world->device()->state(), Device::State::Present);
+        QVERIFY(qApp->installTranslator(&marking));
+        const JournalModel model(m_world->journal, m_world->catalog);
+        for (const JournalColumn column : {JournalColumn::By, JournalColumn::Register}) {
+            const QString text = model.index(0, static_cast<int>(column)).data().toString();
+            QVERIFY2(text.startsWith(u'*'), qPrintable(text));
+        }
+        qApp->removeTranslator(&marking);
     }
 
     void aRefusalIsSaid()

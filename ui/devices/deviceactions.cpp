@@ -7,7 +7,6 @@
 #include "ui/common/texts.h"
 #include "ui/devices/changebauddialog.h"
 #include "ui/devices/changeiddialog.h"
-#include "ui/devices/factoryresetdialog.h"
 #include "ui/devices/nicknames.h"
 
 #include <QInputDialog>
@@ -18,32 +17,6 @@
 #include <algorithm>
 
 namespace dynascope {
-
-namespace {
-
-constexpr std::size_t MostNamed = 6;
-
-QString subjectOf(const std::vector<Device *> &devices)
-{
-    QStringList keys;
-    for (const Device *device : devices)
-        keys << QString::number(device->key());
-    return keys.join(u' ');
-}
-
-QString namesOf(const std::vector<Device *> &devices)
-{
-    QStringList names;
-    for (const Device *device : devices) {
-        if (names.size() < static_cast<qsizetype>(MostNamed))
-            names << device->displayName();
-    }
-    if (devices.size() > MostNamed)
-        names << DeviceActions::tr("%1 more").arg(devices.size() - MostNamed);
-    return names.join(QStringLiteral(", "));
-}
-
-} // namespace
 
 DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     : QObject(window)
@@ -68,6 +41,10 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
         tr("Give this device another ID"), &DeviceActions::changeId);
     m_changeBaud = add(key("changeBaud"), key("baud"), tr("Change baud rate…"), key("Ctrl+Shift+U"),
                        tr("Let this device work at another baud rate"), &DeviceActions::changeBaud);
+    m_moveMany = add(key("moveMany"), key("id"), tr("Move to other IDs or baud…"), key("Ctrl+Shift+M"),
+                     tr("New IDs and baud rates for the selected devices, or for all of a line, planned before "
+                        "anything is written"),
+                     &DeviceActions::moveMany);
     m_workAtBaud = add(key("workAtBaud"), key("parked"), tr("Work at this baud"), key("Ctrl+Shift+W"),
                        tr("Move the line to this baud rate; devices at others are parked"), &DeviceActions::workAtBaud);
     m_clearMultiTurn = add(key("clearMultiTurn"), key("turns"), tr("Clear multi-turn"), QString(),
@@ -102,7 +79,7 @@ QAction *DeviceActions::add(const QString &name, const QString &iconName, const 
 std::vector<QAction *> DeviceActions::menuActions() const
 {
     return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,     nullptr,        m_rename,
-            m_changeId, m_changeBaud, m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
+            m_changeId, m_changeBaud, m_moveMany,   m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
 }
 
 void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate)
@@ -162,6 +139,7 @@ void DeviceActions::update()
     m_rename->setEnabled(this->devices().size() == 1);
     m_changeId->setEnabled(one && one->table().find(u"ID"));
     m_changeBaud->setEnabled(one && one->table().find(u"Baud Rate"));
+    m_moveMany->setEnabled(m_line && m_line->state() == BusThread::State::Open && !m_line->devices().empty());
     m_workAtBaud->setEnabled(m_line && m_baudRate > 0 && m_line->state() == BusThread::State::Open
                              && m_line->baudRate() != m_baudRate);
     m_workAtBaud->setText(
@@ -169,8 +147,31 @@ void DeviceActions::update()
     m_clearMultiTurn->setEnabled(any);
     m_saveHybrid->setVisible(has("Hybrid Save")); // of one series only; before it is enabled: Qt enables nothing hidden
     m_saveHybrid->setEnabled(m_saveHybrid->isVisible());
-    m_factoryReset->setEnabled(one && one->isKnownModel());
+    m_factoryReset->setEnabled(any && std::ranges::all_of(devices, [&devices](const Device *device) {
+        return device->isKnownModel() && device->line() == devices.front()->line();
+    }));
     m_forget->setEnabled(!this->devices().empty());
+}
+
+QString DeviceActions::subjectOf(const std::vector<Device *> &devices)
+{
+    QStringList keys;
+    for (const Device *device : devices)
+        keys << QString::number(device->key());
+    return keys.join(u' ');
+}
+
+QString DeviceActions::namesOf(const std::vector<Device *> &devices)
+{
+    static constexpr std::size_t MostNamed = 6;
+    QStringList names;
+    for (const Device *device : devices) {
+        if (names.size() < static_cast<qsizetype>(MostNamed))
+            names << device->displayName();
+    }
+    if (devices.size() > MostNamed)
+        names << tr("%1 more").arg(devices.size() - MostNamed);
+    return names.join(QStringLiteral(", "));
 }
 
 template <typename Dialog>
@@ -254,26 +255,6 @@ void DeviceActions::readAll()
     }
 }
 
-void DeviceActions::reboot()
-{
-    const std::vector<Device *> devices = reachable();
-    const auto run = [this](const std::vector<Device *> &present) {
-        for (Device *device : present)
-            m_workbench.commands.reboot(*device);
-    };
-    const auto held = std::ranges::count_if(devices, &Device::isTorqueOn);
-    if (held == 0)
-        return run(devices);
-    confirm(tr("Reboot"),
-        devices.size() == 1
-            ? tr("%1 is under torque. It lets go when it reboots; what it holds may fall.")
-                  .arg(devices.front()->displayName())
-            : tr("%1 of these devices are under torque. They let go when they reboot; what they hold may fall.")
-                      .arg(held)
-                  + QStringLiteral("\n\n") + namesOf(devices),
-        devices, run);
-}
-
 void DeviceActions::rename()
 {
     const std::vector<Device *> devices = this->devices();
@@ -319,17 +300,27 @@ void DeviceActions::openChangeBaud(Device *device)
         open<ChangeBaudDialog>(*device, QStringLiteral("changeBaudDialog"));
 }
 
+/// The selected devices, or where a line or one of its rates is selected all that stand there.
+void DeviceActions::moveMany()
+{
+    if (!m_line)
+        return;
+    std::vector<Device *> devices = reachable();
+    std::erase_if(devices, [this](const Device *device) { return device->line() != m_line; });
+    if (devices.empty()) {
+        for (const auto &device : m_line->devices()) {
+            if (m_baudRate == 0 || device->baudRate() == m_baudRate)
+                devices.push_back(device.get());
+        }
+    }
+    emit moveRequested(m_line, devices);
+}
+
 void DeviceActions::workAtBaud()
 {
     if (!m_line || m_baudRate <= 0)
         return;
     m_workbench.commands.workAtBaud(*m_line, m_baudRate);
-}
-
-void DeviceActions::clearMultiTurn()
-{
-    for (Device *device : reachable())
-        m_workbench.commands.clearMultiTurn(*device);
 }
 
 void DeviceActions::saveHybrid()
@@ -357,12 +348,6 @@ void DeviceActions::saveHybrid()
         };
         m_workbench.commands.writeField(*device, field, Save, say);
     }
-}
-
-void DeviceActions::factoryReset()
-{
-    if (Device *device = single())
-        open<FactoryResetDialog>(*device, QStringLiteral("factoryResetDialog"));
 }
 
 void DeviceActions::forget()

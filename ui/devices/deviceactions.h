@@ -33,6 +33,7 @@ public:
 
 signals:
     void posted(const dynascope::Message &message);
+    void moveRequested(dynascope::LineSession *line, const std::vector<dynascope::Device *> &devices);
     /// A person turned torque on here, and it is on now.
     void torqueEnabled(const std::vector<dynascope::DeviceKey> &devices);
 
@@ -43,6 +44,8 @@ private:
     std::vector<Device *> living(const std::vector<DeviceKey> &keys) const;
     std::vector<Device *> reachable() const;
     Device *single() const;
+    static QString subjectOf(const std::vector<Device *> &devices); ///< for present()
+    static QString namesOf(const std::vector<Device *> &devices);
     template <typename Dialog>
     void open(Device &device, const QString &name); ///< the one about it that is open comes to the front
     void turnTorqueOn(const std::vector<Device *> &devices);
@@ -58,6 +61,7 @@ private:
     void rename();
     void changeId();
     void changeBaud();
+    void moveMany();
     void workAtBaud();
     void clearMultiTurn();
     void saveHybrid();
@@ -71,7 +75,7 @@ private:
     QPointer<LineSession> m_line;
     int m_baudRate = 0;
     QAction *m_identify, *m_torqueOn, *m_torqueOff, *m_readAll, *m_reboot, *m_rename, *m_changeId, *m_changeBaud,
-        *m_workAtBaud, *m_clearMultiTurn, *m_saveHybrid, *m_factoryReset, *m_forget;
+        *m_moveMany, *m_workAtBaud, *m_clearMultiTurn, *m_saveHybrid, *m_factoryReset, *m_forget;
 };
 
 } // namespace dynascope

@@ -60,7 +60,12 @@ void JournalDialog::makeView()
         m_view->setColumnWidth(static_cast<int>(column), fontMetrics().horizontalAdvance(QLatin1String(widest)) + 16);
     }
     connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, &JournalDialog::update);
-    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this, [this] { m_selected = selected(); });
+    connect(m_model, &QAbstractItemModel::modelAboutToBeReset, this, [this] {
+        m_selected = selected();
+        const QModelIndex at = m_view->currentIndex();
+        m_current = at.isValid() ? m_model->numberAt(at.row()) : 0;
+    });
+    connect(m_model, &QAbstractItemModel::dataChanged, this, &JournalDialog::update);
     connect(m_model, &QAbstractItemModel::modelReset, this, &JournalDialog::restoreSelection);
 }
 
@@ -79,6 +84,8 @@ void JournalDialog::restoreSelection()
         if (const int row = m_model->rowOf(number); row >= 0)
             selection.select(m_model->index(row, 0), m_model->index(row, JournalColumns - 1));
     }
+    if (const int row = m_model->rowOf(m_current); row >= 0)
+        m_view->selectionModel()->setCurrentIndex(m_model->index(row, 0), QItemSelectionModel::NoUpdate);
     m_view->selectionModel()->select(selection, QItemSelectionModel::ClearAndSelect);
     update();
 }

@@ -35,7 +35,8 @@ private:
     QTreeView *m_view;
     QPushButton *m_undo;
     QPushButton *m_redo;
-    std::vector<qint64> m_selected; ///< over a refresh of the model
+    std::vector<qint64> m_selected; ///< over a reset of the model
+    qint64 m_current = 0;
 };
 
 } // namespace dynascope

@@ -36,12 +36,39 @@ JournalModel::JournalModel(const Journal &journal, const Catalog &catalog, QObje
 void JournalModel::refresh()
 {
     const auto &all = m_journal.entries();
-    beginResetModel();
-    m_entries.clear();
-    for (auto entry = all.rbegin(); entry != all.rend() && m_entries.size() < MostRows; ++entry)
-        m_entries.push_back(*entry);
+    std::vector<JournalEntry> entries;
+    for (auto entry = all.rbegin(); entry != all.rend() && entries.size() < MostRows; ++entry)
+        entries.push_back(*entry);
     m_undone = undoneEntries(all);
+    // Mostly some are added on top: rows that stay keep selection and cursor.
+    const auto known = m_entries.empty()
+                           ? entries.end()
+                           : std::ranges::find(entries, m_entries.front().number, &JournalEntry::number);
+    const auto isKnown = [](const JournalEntry &now, const JournalEntry &then) { return now.number == then.number; };
+    const auto left = static_cast<std::size_t>(entries.end() - known);
+    if (known != entries.end() && left <= m_entries.size()
+        && std::equal(known, entries.end(), m_entries.begin(), isKnown))
+        return insertNewest(std::move(entries), static_cast<int>(known - entries.begin()));
+    beginResetModel();
+    m_entries = std::move(entries);
     endResetModel();
+}
+
+void JournalModel::insertNewest(std::vector<JournalEntry> entries, int added)
+{
+    const auto stay = static_cast<int>(entries.size()) - added;
+    if (stay < rowCount()) {
+        beginRemoveRows({}, stay, rowCount() - 1);
+        m_entries.resize(static_cast<std::size_t>(stay));
+        endRemoveRows();
+    }
+    if (added > 0)
+        beginInsertRows({}, 0, added - 1);
+    m_entries = std::move(entries);
+    if (added > 0)
+        endInsertRows();
+    if (stay > 0)
+        emit dataChanged(index(added, 0), index(added + stay - 1, JournalColumns - 1));
 }
 
 int JournalModel::rowCount(const QModelIndex &parent) const
@@ -81,14 +108,41 @@ QString JournalModel::stateText(const JournalEntry &entry) const
     return m_undone.contains(entry.number) ? tr("undone") : QString();
 }
 
+QString JournalModel::authorText(JournalAuthor author)
+{
+    switch (author) {
+    case JournalAuthor::Window: return tr("window");
+    case JournalAuthor::CommandLine: return tr("dxl");
+    case JournalAuthor::Profile: return tr("profile");
+    case JournalAuthor::Undo: return tr("undo");
+    case JournalAuthor::Stop: return tr("STOP");
+    }
+    return {};
+}
+
+QString JournalModel::kindText(JournalKind kind)
+{
+    switch (kind) {
+    case JournalKind::Write: return tr("write");
+    case JournalKind::Reboot: return tr("reboot");
+    case JournalKind::FactoryReset: return tr("factory reset");
+    case JournalKind::Clear: return tr("clear");
+    case JournalKind::Backup: return tr("backup");
+    case JournalKind::Restore: return tr("restore");
+    case JournalKind::Packet: return tr("packet");
+    }
+    return {};
+}
+
 QString JournalModel::text(const JournalEntry &entry, JournalColumn column) const
 {
     switch (column) {
     case JournalColumn::Number: return QString::number(entry.number);
     case JournalColumn::Time: return QLocale().toString(entry.at.toLocalTime(), QStringLiteral("yyyy-MM-dd HH:mm:ss"));
-    case JournalColumn::By: return wordOf(entry.by);
+    case JournalColumn::By: return authorText(entry.by);
     case JournalColumn::Device: return deviceText(entry.device);
-    case JournalColumn::Register: return whatText(entry);
+    case JournalColumn::Register:
+        return entry.kind == JournalKind::Write ? whatText(entry) : kindText(entry.kind);
     case JournalColumn::Change: return changeText(m_catalog, entry);
     case JournalColumn::State: return stateText(entry);
     }

@@ -35,6 +35,9 @@ public:
 private:
     QString text(const JournalEntry &entry, JournalColumn column) const;
     QString stateText(const JournalEntry &entry) const;
+    static QString authorText(JournalAuthor author);
+    static QString kindText(JournalKind kind);
+    void insertNewest(std::vector<JournalEntry> entries, int added);
 
     const Journal &m_journal;
     const Catalog &m_catalog;

@@ -28,7 +28,7 @@ UndoActions::UndoActions(const Workbench &workbench, QWidget *window)
     connect(m_workbench.journal, &Journal::entriesChanged, this, &UndoActions::update);
     connect(m_workbench.undo, &Undo::busyChanged, this, &UndoActions::update);
     connect(m_workbench.journal, &Journal::failed, this,
-            [this](const QString &why) { emit failed(tr("%1. What is written is not noted.").arg(why)); });
+            [this](const QString &why) { emit failed(tr("%1. What is written meanwhile is noted once that is over.").arg(why)); });
     update();
 }
 
