@@ -1,0 +1,1 @@
+target_sources(dynascope_core PRIVATE yaml/yamltree.cpp yaml/yamltree.h)
