@@ -30,6 +30,13 @@ target_sources(dynascope_core PRIVATE
     session/reopener.cpp session/reopener.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
+    session/settings/applysettings.cpp session/settings/applysettings.h
+    session/settings/comparesettings.cpp
+    session/settings/readimages.cpp session/settings/readimages.h
+    session/settings/registerimage.h
+    session/settings/settingsjournal.cpp session/settings/settingsjournal.h
+    session/settings/settingsorder.cpp session/settings/settingsorder.h
+    session/settings/settingsplan.cpp session/settings/settingsplan.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h
