@@ -27,6 +27,12 @@ target_sources(dynascope_core PRIVATE
     session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
+    session/profile/profile.cpp session/profile/profile.h session/profile/profilereader.cpp
+    session/profile/profilecomparison.cpp session/profile/profilecomparison.h
+    session/profile/profilefile.cpp
+    session/profile/profilereading.cpp session/profile/profilereading.h
+    session/profile/profilesave.cpp session/profile/profilesave.h
+    session/profile/profilevalues.cpp session/profile/profilevalues.h
     session/reopener.cpp session/reopener.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
