@@ -38,6 +38,7 @@ target_sources(dynascope_core PRIVATE
     session/settings/settingsjournal.cpp session/settings/settingsjournal.h
     session/settings/settingsorder.cpp session/settings/settingsorder.h
     session/settings/settingsplan.cpp session/settings/settingsplan.h
+    session/settingscommands.cpp session/settingscommands.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h
