@@ -1,6 +1,7 @@
 target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
+    session/consequences.cpp session/consequences.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
@@ -43,6 +44,7 @@ target_sources(dynascope_core PRIVATE
     session/settings/settingsjournal.cpp session/settings/settingsjournal.h
     session/settings/settingsorder.cpp session/settings/settingsorder.h
     session/settings/settingsplan.cpp session/settings/settingsplan.h
+    session/settingscommands.cpp session/settingscommands.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h
