@@ -29,6 +29,7 @@ target_sources(dynascope_core PRIVATE
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
     session/profile/profile.cpp session/profile/profile.h session/profile/profilereader.cpp
+    session/profile/profileapply.cpp session/profile/profileapply.h
     session/profile/profilecomparison.cpp session/profile/profilecomparison.h
     session/profile/profilefile.cpp
     session/profile/profilereading.cpp session/profile/profilereading.h

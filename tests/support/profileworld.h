@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/profile/profilecomparison.h"
+#include "core/session/profile/profileapply.h"
 #include "tests/support/mortalline.h"
 #include "tests/support/sessionfixture.h"
 
@@ -103,6 +103,54 @@ struct ProfileWorld {
             return tl::unexpected(reading.error());
         return compareProfile(profile, *reading, catalog);
     }
+    /// Reads, plans and writes; what was in the way in `why`, if anything.
+    ProfileOutcome apply(Line &line, const ProfileApplyOptions &options = {}, const ProfileApplyHooks &hooks = {})
+    {
+        why.clear();
+        ProfileReadOptions quick;
+        quick.looksForOthers = false;
+        const auto comparison = check(line, quick);
+        if (!comparison)
+            return {{}, comparison.error()};
+        const auto plan = planProfileApply(profile, *comparison, options);
+        if (!plan) {
+            why = plan.error().text;
+            return {{}, plan.error()};
+        }
+        for (const JointObstacle &obstacle : plan->obstacles)
+            why += obstacle.name + QStringLiteral(": ") + obstacle.why;
+        Bus program(line, &stop);
+        DirectContext context(program);
+        context.atCheckpoint = atCheckpoint;
+        ProfileOutcome outcome = applyProfile(context, *plan, hooks);
+        isDone = plan->obstacles.empty() && outcome.isDone(*plan);
+        for (const JointOutcome &joint : outcome.joints) {
+            if (joint.outcome)
+                why += joint.outcome->why;
+            else
+                why += joint.outcome.error().text;
+        }
+        bus.advanceTo(line.now() + std::chrono::milliseconds(20)); // the last EEPROM write
+        return outcome;
+    }
+    ProfileOutcome apply(const ProfileApplyOptions &options = {}, const ProfileApplyHooks &hooks = {})
+    {
+        MortalLine line(bus, profile.joints.front().baudRate);
+        return apply(line, options, hooks);
+    }
+    /// Every register that the profile names holds what it says.
+    QStringList wrong()
+    {
+        QStringList list;
+        for (const ProfileJoint &joint : profile.joints) {
+            sim::Servo *servo = bus.servo(joint.id, joint.baudRate);
+            for (const WantedValue &each : wantedValues(joint, servo->table(), {})) {
+                if (servo->value(each.field->name) != *each.raw)
+                    list << joint.name + u' ' + each.field->name;
+            }
+        }
+        return list;
+    }
     /// "id:address" of each packet that writes, since the log was cleared.
     QStringList writes() const
     {
@@ -120,6 +168,10 @@ struct ProfileWorld {
     const Catalog &catalog;
     sim::SimulatedBus bus;
     Profile profile;
+    std::atomic<bool> stop = false;
+    std::function<Result<void>()> atCheckpoint;
+    QString why;
+    bool isDone = false;
     LineTime took{};
     BusStatistics statistics;
 };

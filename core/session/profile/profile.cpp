@@ -68,7 +68,7 @@ ProfileUse profileUse(const ControlTable &table, const Field &field)
         return ProfileUse::Motion;
     // With another protocol the device answers nobody here any more.
     if (field.name == u"Hybrid Save" || field.name == u"Protocol Type")
-        return ProfileUse::Command;
+        return ProfileUse::Order;
     if (field.name == u"Homing Offset")
         return ProfileUse::Calibration;
     if (beginsWithOneOf(field.name, {QLatin1String("LED"), QLatin1String("Bus Watchdog"),
@@ -83,7 +83,7 @@ QString whyNotInProfile(ProfileUse use, const Field &field)
     case ProfileUse::ReadOnly: return tr("%1 can't be written").arg(field.name);
     case ProfileUse::Place: return tr("%1 is said by the joint's \"id\" and \"baud\"").arg(field.name);
     case ProfileUse::Motion: return tr("%1 would move the motor, which a profile never does").arg(field.name);
-    case ProfileUse::Command: return tr("%1 makes the device do something; a profile only says what is so")
+    case ProfileUse::Order: return tr("%1 makes the device do something; a profile only says what is so")
             .arg(field.name);
     case ProfileUse::Setting:
     case ProfileUse::Calibration:

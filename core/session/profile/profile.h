@@ -57,7 +57,7 @@ enum class ProfileUse {
     State,       ///< may be given, but comes and goes while a robot works (LED): saved only with all
     Place,       ///< ID and Baud Rate, which a joint has keys for
     Motion,      ///< torque, goals, and what leads to them: never in a profile
-    Command,     ///< makes the device do something, or be gone: never in a profile
+    Order,       ///< makes the device do something, or be gone: never in a profile
     ReadOnly,
 };
 ProfileUse profileUse(const ControlTable &table, const Field &field);

@@ -98,6 +98,8 @@ JointComparison compareJoint(const ProfileJoint &joint, const JointReading &read
         result.table = catalog.find(joint.modelNumber, result.found->firmware);
     if (!result.isReadable() || !result.table)
         return result;
+    if (const Field *torque = result.table->find(Known::TorqueEnable))
+        result.hasTorque = lookupIn(*result.table, reading.image)(torque->name).value_or(0) != 0;
     result.rows = compareRegisters(joint, *result.table, reading.image);
     if (result.state == State::AsWanted && result.count(RegisterComparison::State::Same) < result.rows.size())
         result.state = State::Differs;

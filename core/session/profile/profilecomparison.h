@@ -41,6 +41,7 @@ struct JointComparison {
     State state = State::Missing;
     std::optional<Found> found;   ///< at its place, or where it is at another rate
     ControlTablePtr table;        ///< of what was found, where that is its model
+    bool hasTorque = false;       ///< which locks the EEPROM
     QString why;                  ///< what was seen, where it is neither AsWanted nor Differs
     std::vector<RegisterComparison> rows;
 

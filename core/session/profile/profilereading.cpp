@@ -48,6 +48,8 @@ std::vector<const Field *> wantedFields(const ProfileJoint &joint, const Control
         for (const QString &name : deciders(*field))
             add(name);
     }
+    if (const Field *torque = table.find(Known::TorqueEnable); torque && !fields.empty())
+        fields.insert(torque); // it locks the EEPROM
     return {fields.begin(), fields.end()};
 }
 
