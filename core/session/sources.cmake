@@ -19,6 +19,8 @@ target_sources(dynascope_core PRIVATE
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
+    session/moverun.cpp session/moverun.h
+    session/moves.cpp session/moves.h
     session/neighbours.cpp session/neighbours.h
     session/placecommands.cpp
     session/procedures/atbaud.h
