@@ -121,7 +121,7 @@ private:
     {
         switch (profileUse(table, field)) {
         case ProfileUse::Setting: return m_options.all || field.initial != raw;
-        case ProfileUse::Calibration: return m_options.calibration;
+        case ProfileUse::Calibration: return m_options.calibration && (m_options.all || field.initial != raw);
         case ProfileUse::State: return m_options.all;
         default: return false;
         }
