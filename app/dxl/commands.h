@@ -30,6 +30,8 @@ ExitCode infoCommand(const Work &work);
 ExitCode moveCommand(const Work &work);
 ExitCode packetCommand(const Work &work);
 ExitCode pingCommand(const Work &work);
+ExitCode profileCommand(const Work &work);
+ExitCode profileSaveCommand(const Work &work); ///< the part of it that writes the file
 ExitCode readCommand(const Work &work);
 ExitCode rebootCommand(const Work &work);
 ExitCode resetCommand(const Work &work);

@@ -43,6 +43,8 @@ QStringList wordsBehind(const QString &command)
         return split(u"bash zsh fish");
     if (command == u"models")
         return split(u"list show check import");
+    if (command == u"profile")
+        return split(u"save check diff apply");
     if (command == u"packet")
         return instructionNames();
     if (command != u"sim")
@@ -59,7 +61,8 @@ Words wordsOf(const CLI::App &app)
     words.name = QString::fromStdString(app.get_name());
     words.help = inShort(app.get_description());
     words.words = wordsBehind(words.name);
-    words.takesFiles = words.name == u"sim" || words.name == u"models"; // ctl PATH, check FILE
+    words.takesFiles = words.name == u"sim" || words.name == u"models"
+                       || words.name == u"profile"; // ctl PATH, check FILE
     for (const CLI::Option *option : app.get_options()) {
         for (const std::string &name : option->get_lnames()) {
             words.options << QStringLiteral("--") + QString::fromStdString(name);

@@ -19,7 +19,8 @@ constexpr std::array Names{
     Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"completion", Command::Completion},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
     Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
-    Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"read", Command::Read},
+    Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"profile", Command::Profile},
+    Name{"read", Command::Read},
     Name{"reboot", Command::Reboot}, Name{"reset", Command::Reset},   Name{"scan", Command::Scan},
     Name{"sim", Command::Sim},       Name{"stats", Command::Stats},   Name{"stop", Command::Stop},
     Name{"table", Command::Table},   Name{"torque", Command::Torque}, Name{"version", Command::Version},
@@ -87,6 +88,7 @@ void describe(CLI::App &app, Typed &typed)
     describeActions(app, typed);
     describePacket(app, typed);
     typed.move.describe(app);
+    typed.profile.describe(app, typed.yes);
     typed.journal.describe(app);
     typed.sim.describe(app);
     describeModels(app, typed.models);

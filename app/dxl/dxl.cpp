@@ -23,6 +23,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Move: return moveCommand(work);
     case Command::Packet: return packetCommand(work);
     case Command::Ping: return pingCommand(work);
+    case Command::Profile: return profileCommand(work);
     case Command::Read: return readCommand(work);
     case Command::Reboot: return rebootCommand(work);
     case Command::Reset: return resetCommand(work);
@@ -53,6 +54,7 @@ bool isJournalled(const Options &options)
     case Command::Led:
     case Command::Move:
     case Command::Packet:
+    case Command::Profile:
     case Command::Reboot:
     case Command::Reset:
     case Command::Stop:

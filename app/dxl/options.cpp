@@ -152,6 +152,12 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
             return tl::unexpected(move.error());
         options.move = std::move(*move);
     }
+    if (options.command == Command::Profile) {
+        auto profile = typed.profile.understand();
+        if (!profile)
+            return tl::unexpected(profile.error());
+        options.profile = std::move(*profile);
+    }
     if (options.command == Command::Packet) {
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());

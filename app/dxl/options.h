@@ -5,6 +5,7 @@
 #include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/moveoptions.h"
+#include "app/dxl/profileoptions.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -34,6 +35,7 @@ enum class Command {
     Packet,
     Ping,
     Ports,
+    Profile,
     Read,
     Reboot,
     Reset,
@@ -89,6 +91,7 @@ struct Options {
     SimOptions sim;
     JournalOptions journal;
     MoveOptions move;
+    ProfileOptions profile;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

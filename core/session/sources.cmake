@@ -1,6 +1,7 @@
 target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
+    session/consequences.cpp session/consequences.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
@@ -29,10 +30,25 @@ target_sources(dynascope_core PRIVATE
     session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
+    session/profile/profile.cpp session/profile/profile.h session/profile/profilereader.cpp
+    session/profile/profileapply.cpp session/profile/profileapply.h
+    session/profile/profilecomparison.cpp session/profile/profilecomparison.h
+    session/profile/profilefile.cpp
+    session/profile/profilereading.cpp session/profile/profilereading.h
+    session/profile/profilesave.cpp session/profile/profilesave.h
+    session/profile/profilevalues.cpp session/profile/profilevalues.h
     session/reopener.cpp session/reopener.h
     session/resetplan.cpp session/resetplan.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
+    session/settings/applysettings.cpp session/settings/applysettings.h
+    session/settings/comparesettings.cpp
+    session/settings/readimages.cpp session/settings/readimages.h
+    session/settings/registerimage.h
+    session/settings/settingsjournal.cpp session/settings/settingsjournal.h
+    session/settings/settingsorder.cpp session/settings/settingsorder.h
+    session/settings/settingsplan.cpp session/settings/settingsplan.h
+    session/settingscommands.cpp session/settingscommands.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h

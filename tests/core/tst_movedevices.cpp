@@ -2,6 +2,7 @@
 #include "core/session/deviceplace.h"
 #include "core/session/procedures/movedevices.h"
 #include "tests/support/builtincatalog.h"
+#include "tests/support/mortalline.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
 
@@ -9,52 +10,9 @@
 
 using namespace dynascope;
 using namespace Qt::StringLiterals;
+using test::Forever, test::MortalLine;
 
 namespace {
-
-/// A line whose program is killed: behind a given write nothing of it goes out, and nothing is read.
-class MortalLine final : public Line
-{
-public:
-    MortalLine(sim::SimulatedBus &bus, int baudRate, int writesLeft) : m_line(bus, baudRate), m_left(writesLeft)
-    {
-        m_line.advance(bus.now() + std::chrono::milliseconds(50));
-    }
-
-    QString name() const override { return m_line.name(); }
-    LineTime now() const override { return m_line.now(); }
-    Result<void> write(ByteView packet) override
-    {
-        const bool changes = packet[7] == static_cast<std::uint8_t>(Instruction::Write);
-        if (m_dead)
-            return failure(ErrorKind::PortLost, u"killed"_s);
-        if (changes && m_left-- == 0) { // in the moment it sends this
-            m_dead = true;
-            if (m_lastGoesOut)
-                (void)m_line.write(packet);
-            return failure(ErrorKind::PortLost, u"killed"_s);
-        }
-        return m_line.write(packet);
-    }
-    Result<void> read(Bytes &buffer, LineTime deadline) override
-    {
-        if (m_dead)
-            return failure(ErrorKind::PortLost, u"killed"_s);
-        return m_line.read(buffer, deadline);
-    }
-    void discardInput() override { m_line.discardInput(); }
-    int baudRate() const override { return m_line.baudRate(); }
-    Result<void> setBaudRate(int bitsPerSecond) override { return m_line.setBaudRate(bitsPerSecond); }
-    LineTime hostAllowance() const override { return m_line.hostAllowance(); }
-    void refuse(int rate) { m_line.refuseBaudRate(rate); }
-    void setLastGoesOut(bool out) { m_lastGoesOut = out; }
-    bool isDead() const { return m_dead; }
-
-private:
-    sim::SimulatedLine m_line;
-    int m_left;
-    bool m_dead = false, m_lastGoesOut = true;
-};
 
 MoveHooks savingTo(const QString &path)
 {
@@ -75,8 +33,6 @@ Result<MovePlan> loaded(const QString &path)
         return failure(ErrorKind::NotFound, file.errorString());
     return movePlanFromJson(file.readAll());
 }
-
-constexpr int Forever = 1'000'000;
 
 } // namespace
 

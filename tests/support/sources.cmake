@@ -7,11 +7,14 @@ target_sources(dynascope_test_support PRIVATE
     support/faultmatrix.cpp support/faultmatrix.h support/faultrequests.cpp
     support/hex.cpp support/hex.h
     support/modelwalk.cpp support/modelwalk.h
+    support/mortalline.h
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
+    support/profileworld.h
     support/sanitized.h
     support/tablefacts.cpp support/tablefacts.h
     support/servobench.h
+    support/settingsworld.h
     support/sessionfixture.h
     support/simclient.h
     support/testmain.cpp support/testmain.h

@@ -90,6 +90,13 @@ Result<std::vector<PollValue>> writeAndRead(JobContext &context, const WriteFiel
 
 } // namespace
 
+bool isBeyondLimit(const Error &error)
+{
+    return error.kind == ErrorKind::Refused
+           && (error.number == static_cast<std::uint8_t>(DeviceError::DataLimit)
+               || error.number == static_cast<std::uint8_t>(DeviceError::DataRange));
+}
+
 Bytes becomesLater(const Field &field, std::int64_t raw)
 {
     constexpr std::int64_t Save = 1, Saved = 2;

@@ -44,6 +44,9 @@ struct WrittenField {
 };
 Result<WrittenField> writeField(JobContext &context, const WriteFieldPlan &plan);
 
+/// Did the device refuse the value for a limit? Another register may have to change first.
+bool isBeyondLimit(const Error &error);
+
 /// Manual: "ID". Refused where `newId` answers already or torque is on and may not be turned off. Writes once, then
 /// looks for the device at the new ID and, failing that, at the old one. STOP may come at any point: then the error is
 /// Stopped, and only lookForMoved() can tell where the device is.

@@ -26,13 +26,6 @@ QString valueText(const Bytes &bytes)
     return bytesText(bytes, false);
 }
 
-bool isBeyondLimit(const Error &error)
-{
-    return error.kind == ErrorKind::Refused
-           && (error.number == static_cast<std::uint8_t>(DeviceError::DataLimit)
-               || error.number == static_cast<std::uint8_t>(DeviceError::DataRange));
-}
-
 /// One run of a plan.
 class Revert
 {
