@@ -114,7 +114,7 @@ void ConsequencesDialog::addHeading(QVBoxLayout &layout)
     const Device &first = *m_write.devices.front();
     const ExpectedChange change{field().name, first.value(m_write.field).raw, m_write.raw};
     const QString who = names.join(QStringLiteral(", "));
-    QLabel *label = makeBold(tr("%1 of %2").arg(changeText(*m_table, lookupOf(first), change, m_write.units), who), this);
+    QLabel *label = makeBold(tr("%1 – %2").arg(who, changeText(*m_table, lookupOf(first), change, m_write.units)), this);
     if (m_write.devices.size() > 1)
         label->setText(tr("%1 of %2 devices: %3").arg(field().name).arg(m_write.devices.size()).arg(who));
     label->setObjectName(QStringLiteral("consequencesHeading"));
