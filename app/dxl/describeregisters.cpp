@@ -58,6 +58,11 @@ void describeRegisters(CLI::App &app, Typed &typed)
     CLI::App *write = app.add_subcommand("write", "Write registers and read them back");
     addIds(*write, typed);
     write->add_option("ASSIGNMENT", typed.registers, "FIELD=VALUE or ADDRESS:LENGTH=VALUE")->required()->type_name({});
+    write->add_flag("--explain", typed.explain, "Say what it would bring besides, and write nothing");
+    write->add_flag("--safely", typed.safely,
+                    "In the right order, with torque off where it must be, and what a mode resets put back");
+    write->add_flag("--torque-back", typed.torqueBack,
+                    "With --safely: turn torque on again where it was on, with the goal at the present position");
     write->footer(
         "A VALUE is the raw register value (2048, 0x800, -5), physical with a unit (90deg, 30rpm, 200mA, 12.1V, "
         "50%) or the name of an enum value or of bits joined by '+'. Nothing is written before all of it has "

@@ -104,6 +104,9 @@ void understandWords(Options &options, const Typed &typed)
     options.shell = QString::fromStdString(typed.shell);
     options.model = QString::fromStdString(typed.model.value_or(std::string()));
     options.sweep = typed.sweep;
+    options.explain = typed.explain;
+    options.safely = typed.safely;
+    options.torqueBack = typed.torqueBack;
     options.listen = typed.listen;
 }
 
@@ -162,6 +165,10 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());
     }
+    if (options.explain && options.safely)
+        return wrong(QStringLiteral("--explain and --safely: one of them"));
+    if (options.torqueBack && !options.safely)
+        return wrong(QStringLiteral("--torque-back belongs to --safely"));
     if (options.command == Command::Stop && !options.model.isEmpty() && options.idList.empty())
         return wrong(QStringLiteral("--model says what the devices are that IDS names; there are none"));
     return options;

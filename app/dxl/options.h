@@ -70,6 +70,10 @@ struct Options {
     IdRange ids{0, 252};
     bool sweep = false; ///< scan: one Ping after the other
     QString model;      ///< stop: what all of idList are
+    // write
+    bool explain = false;    ///< say what it would bring, and write nothing
+    bool safely = false;     ///< the safe way
+    bool torqueBack = false; ///< with it: torque on again where it was
     // stats, watch
     std::optional<double> seconds;
     std::optional<int> count; ///< watch: samples

@@ -26,6 +26,7 @@ struct Typed {
     bool csv = false;
     bool yes = false;
     bool raw = false;
+    bool explain = false, safely = false, torqueBack = false;
     std::vector<std::string> registers, words;
     SimArguments sim;
     ModelsArguments models;

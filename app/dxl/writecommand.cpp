@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/dxl/safewrite.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
 #include "app/dxl/writing.h"
@@ -118,6 +119,36 @@ Result<void> checkId(Device &device, const std::vector<Assignment> &assignments)
                    QStringLiteral("several devices can't get the same ID: write it to one alone; nothing was written"));
 }
 
+ExitCode explainAll(const Work &work, std::vector<Writing> &writings)
+{
+    work.output.expectMany();
+    ExitCode code = ExitCode::Done;
+    for (Writing &writing : writings) {
+        const ExitCode one = explainWrites(work, *writing.device, writing.assignments);
+        code = code == ExitCode::Done ? one : code;
+    }
+    return code;
+}
+
+/// One device after the other; planned for all before the first write.
+ExitCode writeAllSafely(const Work &work, std::vector<Writing> &writings)
+{
+    work.output.expectMany();
+    std::vector<SettingsPlan> plans;
+    for (const Writing &writing : writings) {
+        auto plan = planSafely(work, *writing.device, writing.assignments);
+        if (!plan)
+            return work.output.refuse(plan.error());
+        plans.push_back(std::move(*plan));
+    }
+    ExitCode code = ExitCode::Done;
+    for (std::size_t i = 0; i < writings.size() && !work.bus.isCancelled() && !work.bus.lost(); ++i) {
+        const ExitCode one = writeSafely(work, *writings[i].device, plans[i]);
+        code = code == ExitCode::Done ? one : code;
+    }
+    return code;
+}
+
 } // namespace
 
 ExitCode writeCommand(const Work &work)
@@ -137,10 +168,15 @@ ExitCode writeCommand(const Work &work)
             if (const auto alone = checkId(device, *prepared); !alone)
                 return work.output.refuse(alone.error());
         }
-        if (const auto free = checkTorque(device, *prepared); !free)
+        const bool isOther = work.options.explain || work.options.safely; // torque is no obstacle to these
+        if (const auto free = isOther ? Result<void>() : checkTorque(device, *prepared); !free)
             return work.output.fail(free.error());
         writings.push_back({&device, std::move(*prepared), {}});
     }
+    if (work.options.explain)
+        return explainAll(work, writings);
+    if (work.options.safely)
+        return writeAllSafely(work, writings);
     // EEPROM takes its time and may move a device: there each is heard out before the next.
     const bool inRam = std::ranges::all_of(writings, [](const Writing &one) {
         return std::ranges::all_of(one.assignments, &Assignment::isInRam);

@@ -5,6 +5,7 @@
 #include "app/window/options.h"
 #include "core/session/journal/undo.h"
 #include "core/session/scanner.h"
+#include "core/session/settingscommands.h"
 #include "core/session/stopcontrol.h"
 #include "core/session/monitor.h"
 #include "core/table/usertables.h"
@@ -41,6 +42,7 @@ private:
     Journal m_journal;
     Commands m_commands;
     Undo m_undo;
+    SettingsCommands m_settings;
     Monitor m_monitor;
     Scanner m_scanner;
     StopControl m_stop;

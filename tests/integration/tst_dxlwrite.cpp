@@ -64,6 +64,88 @@ private slots:
         QCOMPARE(instructions(Instruction::SyncWrite), 0);
     }
 
+    void whatItWouldBring()
+    {
+        m_bus->call([](sim::SimulatedBus &bus, LineTime) {
+            bus.servo(1, 57600)->write(u"Position P Gain", 640);
+            bus.servo(1, 57600)->write(u"Torque Enable", 1);
+        });
+        const Outcome outcome = m_bus->dxl(u"write 1 operating_mode=4 led=on --explain");
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.code, 0);
+        QVERIFY2(outcome.out.startsWith(u"Operating Mode: Operating Mode is locked while torque is on"_s),
+                 qPrintable(outcome.out));
+        QVERIFY2(outcome.out.contains(u"\n    Position P Gain: 640 → 800\n"_s), qPrintable(outcome.out));
+        QVERIFY2(outcome.out.endsWith(u"LED: nothing besides its value\n"_s), qPrintable(outcome.out));
+        QCOMPARE(instructions(Instruction::Write), 0);
+        const Outcome json = m_bus->dxl(u"--json write 1 operating_mode=4 --explain");
+        const QJsonArray all = QJsonDocument::fromJson(json.out.toUtf8()).array();
+        QCOMPARE(all.size(), 2);
+        QCOMPARE(all.at(1)[u"consequence"_s].toString(), u"resets"_s);
+        QCOMPARE(all.at(1)[u"registers"_s].toArray().first()[u"register"_s].toString(), u"Position P Gain"_s);
+    }
+
+    void theSafeWay_data()
+    {
+        QTest::addColumn<bool>("torqueBack");
+        QTest::newRow("torque stays off") << false;
+        QTest::newRow("torque comes back") << true;
+    }
+    void theSafeWay()
+    {
+        QFETCH(bool, torqueBack);
+        m_bus->call([](sim::SimulatedBus &bus, LineTime) {
+            for (const int id : {1, 2}) {
+                bus.servo(id, 57600)->write(u"Position P Gain", 640);
+                bus.servo(id, 57600)->write(u"Torque Enable", 1);
+            }
+        });
+        QStringList words{u"write"_s, u"1,2"_s, u"led=on"_s, u"operating_mode=4"_s, u"--safely"_s};
+        if (torqueBack)
+            words << u"--torque-back"_s;
+        const Outcome outcome = m_bus->dxl(words);
+        QVERIFY2(outcome.code == 0, qPrintable(outcome.err));
+        QVERIFY2(outcome.out.startsWith(u"ID 1: Operating Mode = 4 (Extended position control)\n"_s),
+                 qPrintable(outcome.out));
+        QVERIFY2(outcome.out.contains(u"ID 2: Position P Gain = 640\n"_s), qPrintable(outcome.out));
+        QVERIFY2(outcome.err.contains(torqueBack ? u"ID 1: torque is on, with the goal at rest"_s
+                                                 : u"ID 1: torque was turned off for it, and stays off"_s),
+                 qPrintable(outcome.err));
+        m_bus->call([torqueBack](sim::SimulatedBus &bus, LineTime) {
+            for (const int id : {1, 2}) {
+                sim::Servo &servo = *bus.servo(id, 57600);
+                QCOMPARE(servo.value(u"Operating Mode"), 4);
+                QCOMPARE(servo.value(u"Position P Gain"), 640);
+                QCOMPARE(servo.value(u"LED"), 1);
+                QCOMPARE(servo.value(u"Torque Enable"), torqueBack ? 1 : 0);
+            }
+        });
+        m_bus->forget();
+        QCOMPARE(m_bus->dxl(words).code, 0);
+        QCOMPARE(instructions(Instruction::Write), 0); // all of it was so already
+    }
+
+    void theSafeWayIsRefused_data()
+    {
+        QTest::addColumn<QStringList>("words");
+        QTest::addColumn<QString>("says");
+        QTest::newRow("ID") << QStringList{u"id=7"_s, u"--safely"_s} << u"ID is not changed among other settings"_s;
+        QTest::newRow("torque off") << QStringList{u"torque_enable=off"_s, u"--safely"_s} << u"Torque Enable is no setting"_s;
+        QTest::newRow("twice") << QStringList{u"led=on"_s, u"led=off"_s, u"--safely"_s} << u"LED is wanted twice"_s;
+        QTest::newRow("no register") << QStringList{u"100:3=1"_s, u"--safely"_s} << u"nobody knows what 100:3 is"_s;
+        QTest::newRow("both") << QStringList{u"led=on"_s, u"--safely"_s, u"--explain"_s} << u"one of them"_s;
+        QTest::newRow("alone") << QStringList{u"led=on"_s, u"--torque-back"_s} << u"--torque-back belongs to --safely"_s;
+    }
+    void theSafeWayIsRefused()
+    {
+        QFETCH(QStringList, words);
+        QFETCH(QString, says);
+        const Outcome outcome = m_bus->dxl(QStringList{u"write"_s, u"1"_s} + words);
+        QCOMPARE(outcome.code, 2);
+        QVERIFY2(isOneSentence(outcome.err) && outcome.err.contains(says), qPrintable(outcome.err));
+        QCOMPARE(instructions(Instruction::Write), 0);
+    }
+
     void whoRefusesSaysWhy()
     {
         // Nobody answers a Sync Write: that the watchdog has tripped is said by the device to which it is written alone.

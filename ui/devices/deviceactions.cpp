@@ -8,6 +8,9 @@
 #include "ui/devices/changebauddialog.h"
 #include "ui/devices/changeiddialog.h"
 #include "ui/devices/nicknames.h"
+#include "ui/table/consequencesdialog.h"
+#include "ui/table/tableactions.h"
+#include "ui/window/unitmenu.h"
 
 #include <QInputDialog>
 #include <QMessageBox>
@@ -215,13 +218,29 @@ void DeviceActions::identify()
 void DeviceActions::torqueOn()
 {
     const std::vector<Device *> devices = reachable();
+    if (devices.size() == 1 && tellOfTorqueOn(*devices.front()))
+        return;
     if (devices.size() <= 1 || m_workbench.commands.isStopped())
         return turnTorqueOn(devices);
     confirm(tr("Torque on"),
             tr("Turn the torque of %1 devices on? Each holds its position, and may move to a goal it was given before.")
                     .arg(devices.size())
-                + QStringLiteral("\n\n") + namesOf(devices),
+                + QStringLiteral("\n\n") + namesOf(devices) + jumpsText(devices, savedUnits()),
             devices, [this](const std::vector<Device *> &present) { turnTorqueOn(present); });
+}
+
+/// Where the joint would jump, or run, it asks first. False: there is nothing to tell.
+bool DeviceActions::tellOfTorqueOn(Device &device)
+{
+    const int torque = device.table().indexOf(Known::TorqueEnable);
+    const auto safely = safeWrites(m_workbench);
+    if (!safely || torque < 0 || m_workbench.commands.isStopped() || !areSerious(consequencesOf(device, torque, 1)))
+        return false;
+    AskedWrite write{{&device}, torque, 1, savedUnits(), {}, {}};
+    write.writeOnly = [this](Device &present) { turnTorqueOn({&present}); };
+    write.writeSafely = [safely, torque](Device &present, bool) { safely(present, torque, 1, false); };
+    askAboutConsequences(std::move(write), m_window);
+    return true;
 }
 
 void DeviceActions::turnTorqueOn(const std::vector<Device *> &devices)

@@ -48,6 +48,7 @@ private:
     static QString namesOf(const std::vector<Device *> &devices);
     template <typename Dialog>
     void open(Device &device, const QString &name); ///< the one about it that is open comes to the front
+    bool tellOfTorqueOn(Device &device);
     void turnTorqueOn(const std::vector<Device *> &devices);
     /// Asks about `devices`; `action` gets those of them that are still there. The question goes with any of them.
     void confirm(const QString &title, const QString &text, const std::vector<Device *> &devices,

@@ -19,10 +19,12 @@ EditFlow::EditFlow(FieldTableModel &model, TableView &view, LockBar &bar, TableA
     , m_actions(std::move(actions))
 {
     connect(&bar, &LockBar::wayChosen, this, &EditFlow::unlock);
+    connect(&bar, &LockBar::otherChosen, this, &EditFlow::editSafely);
     connect(&bar, &LockBar::dismissed, this, &EditFlow::forget);
     connect(&model, &FieldTableModel::updated, this, &EditFlow::resume);
     connect(&model, &QAbstractItemModel::modelAboutToBeReset, this, &EditFlow::forget);
     connect(view.selectionModel(), &QItemSelectionModel::currentChanged, this, [this](const QModelIndex &current) {
+        m_lifted = QPersistentModelIndex();
         if (m_locked.isValid() && current.siblingAtColumn(0) != m_locked.sibling(m_locked.row(), 0))
             forget();
     });
@@ -78,7 +80,7 @@ void EditFlow::forget()
 bool EditFlow::explainLock(const QModelIndex &cell, std::function<void()> then)
 {
     const QString reason = cell.data(LockRole).toString();
-    if (reason.isEmpty())
+    if (reason.isEmpty() || m_lifted == cell)
         return false;
     const Field *field = fieldAt(cell);
     const std::vector<Device *> devices = targets(cell);
@@ -90,8 +92,19 @@ bool EditFlow::explainLock(const QModelIndex &cell, std::function<void()> then)
     m_locked = cell;
     m_then = std::move(then);
     m_unlocking = false;
-    m_bar.showReason(reason, byTorque ? tr("Turn torque off and edit") : QString());
+    m_bar.showReason(reason, byTorque ? tr("Turn torque off and edit") : QString(),
+                     byTorque && m_actions.writeSafely ? tr("Edit the safe way") : QString());
     return true;
+}
+
+/// What is typed is not written before its consequences have been shown.
+void EditFlow::editSafely()
+{
+    const std::function<void()> then = m_then;
+    m_lifted = m_locked;
+    forget();
+    if (then)
+        then();
 }
 
 void EditFlow::unlock()

@@ -35,6 +35,7 @@ signals:
 private:
     bool explainLock(const QModelIndex &cell, std::function<void()> then);
     void unlock();
+    void editSafely();
     void resume();
     void openBits(const QModelIndex &cell);
     std::vector<Device *> targets(const QModelIndex &cell) const;
@@ -45,6 +46,7 @@ private:
     TableActions m_actions;
     QPersistentModelIndex m_locked;
     std::function<void()> m_then; ///< once m_locked is free
+    QPersistentModelIndex m_lifted; ///< may be edited under torque: the safe way is offered then
     bool m_unlocking = false;
 };
 

@@ -3,6 +3,7 @@
 
 #include "core/table/indirect.h"
 #include "ui/common/watchmime.h"
+#include "ui/table/consequencesdialog.h"
 
 #include <algorithm>
 #include <chrono>
@@ -341,14 +342,17 @@ bool FieldTableModel::setData(const QModelIndex &index, const QVariant &value, i
     if (role != Qt::EditRole || !isValueKind(kind) || !isEditable(this->field(field)))
         return false;
     bool written = false;
-    std::vector<Device *> unknown;
+    std::vector<Device *> unknown, asked;
     const std::int64_t raw = value.toLongLong();
     for (Device *device : targets(index.column())) {
         const FieldValue &now = device->value(field);
         const bool same = now.raw == raw && !now.pending && now.state != FieldState::Failed;
-        if (same || !device->lockReason(field, true).isEmpty())
+        const bool isAsked = !same && isToBeAsked(*device, field, raw);
+        if (same || (!isAsked && !device->lockReason(field, true).isEmpty()))
             continue;
-        if (this->field(field).mayBeTried())
+        if (isAsked)
+            asked.push_back(device);
+        else if (this->field(field).mayBeTried())
             unknown.push_back(device);
         else
             m_actions.write(*device, field, raw);
@@ -356,7 +360,17 @@ bool FieldTableModel::setData(const QModelIndex &index, const QVariant &value, i
     }
     if (!unknown.empty())
         emit confirmationWanted(unknown, field, raw);
+    if (!asked.empty())
+        emit consequencesWanted(asked, field, raw);
     return written;
+}
+
+bool FieldTableModel::isToBeAsked(const Device &device, int field, std::int64_t raw) const
+{
+    if (!m_actions.writeSafely || this->field(field).mayBeTried())
+        return false;
+    const bool isLocked = !device.lockReason(field, true).isEmpty();
+    return isLocked ? isLockedByTorqueAlone(device, field) : areSerious(consequencesOf(device, field, raw));
 }
 
 QStringList FieldTableModel::mimeTypes() const

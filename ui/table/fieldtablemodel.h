@@ -67,6 +67,8 @@ signals:
     void updated(); ///< once after each frame's changes
     /// An edit of a register that only may be tried (Field::mayBeTried): nothing is written unless a person insists.
     void confirmationWanted(const std::vector<dynascope::Device *> &devices, int field, qint64 raw);
+    /// An edit of which a person should know more first (TableActions::writeSafely).
+    void consequencesWanted(const std::vector<dynascope::Device *> &devices, int field, qint64 raw);
 
 private:
     int fieldOf(const QModelIndex &index) const; ///< −1 for groups
@@ -76,6 +78,7 @@ private:
     std::optional<std::int64_t> pointsAt(int field, const Device &device) const;
     bool differs(int field, int device) const;
     bool isChangedFromDefault(int field, int device) const;
+    bool isToBeAsked(const Device &device, int field, std::int64_t raw) const;
     Qt::CheckState watched(int field) const;
     void note(int device, int first, int last);
     void flush();

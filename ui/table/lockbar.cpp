@@ -14,6 +14,7 @@ LockBar::LockBar(QWidget *parent)
     : QFrame(parent)
     , m_text(new QLabel(this))
     , m_button(new QPushButton(this))
+    , m_other(new QPushButton(this))
 {
     setObjectName(QStringLiteral("lockBar"));
     setAutoFillBackground(true);
@@ -24,6 +25,7 @@ LockBar::LockBar(QWidget *parent)
     m_text->setWordWrap(true);
     m_text->setTextFormat(Qt::PlainText);
     m_button->setObjectName(QStringLiteral("lockBarButton"));
+    m_other->setObjectName(QStringLiteral("lockBarOther"));
     auto *close = new QToolButton(this);
     close->setObjectName(QStringLiteral("lockBarClose"));
     close->setIcon(icon(QStringLiteral("close")));
@@ -36,8 +38,10 @@ LockBar::LockBar(QWidget *parent)
     layout->addWidget(sign);
     layout->addWidget(m_text, 1);
     layout->addWidget(m_button);
+    layout->addWidget(m_other);
     layout->addWidget(close);
     connect(m_button, &QPushButton::clicked, this, &LockBar::wayChosen);
+    connect(m_other, &QPushButton::clicked, this, &LockBar::otherChosen);
     connect(close, &QToolButton::clicked, this, [this] {
         hide();
         emit dismissed();
@@ -45,12 +49,14 @@ LockBar::LockBar(QWidget *parent)
     hide();
 }
 
-void LockBar::showReason(const QString &reason, const QString &way)
+void LockBar::showReason(const QString &reason, const QString &way, const QString &other)
 {
     m_text->setText(reason);
     m_button->setText(way);
     m_button->setVisible(!way.isEmpty());
     m_button->setEnabled(true);
+    m_other->setText(other);
+    m_other->setVisible(!other.isEmpty());
     show();
 }
 

@@ -16,16 +16,18 @@ class LockBar : public QFrame
 public:
     explicit LockBar(QWidget *parent = nullptr);
 
-    void showReason(const QString &reason, const QString &way); ///< `way` is the button's text; empty: no button
+    /// `way` is the button's text, `other` that of a second one; empty: no button.
+    void showReason(const QString &reason, const QString &way, const QString &other = {});
     void setBusy(bool busy);                                    ///< the way is being gone
 
 signals:
     void wayChosen();
+    void otherChosen();
     void dismissed();
 
 private:
     QLabel *m_text;
-    QPushButton *m_button;
+    QPushButton *m_button, *m_other;
 };
 
 } // namespace dynascope

@@ -2,6 +2,7 @@ target_sources(dynascope_ui PRIVATE
     table/bitpopup.cpp table/bitpopup.h
     table/cellpainter.cpp table/cellpainter.h
     table/changetracker.cpp table/changetracker.h
+    table/consequencesdialog.cpp table/consequencesdialog.h
     table/editflow.cpp table/editflow.h
     table/enumedit.cpp table/enumedit.h
     table/fielddelegate.cpp table/fielddelegate.h

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/tableactions.h"
 
-#include "core/session/commands.h"
+#include "core/session/settingscommands.h"
 #include "ui/common/workbench.h"
 #include "ui/table/tablepanel.h"
 
 namespace dynascope {
+
+std::function<void(Device &, int, std::int64_t, bool)> safeWrites(const Workbench &workbench)
+{
+    SettingsCommands *settings = workbench.settings;
+    if (!settings)
+        return {};
+    return [settings](Device &device, int field, std::int64_t raw, bool torqueBack) {
+        SettingsOptions options;
+        if (field == device.table().indexOf(Known::TorqueEnable)) {
+            options.turnTorqueOn = true;
+            return settings->apply(device, {}, options);
+        }
+        options.mayTurnTorqueOff = options.keepResets = true;
+        options.putTorqueBack = torqueBack;
+        settings->apply(device, {{field, raw}}, options);
+    };
+}
 
 TableActions tableActions(const Workbench &workbench)
 {
@@ -21,6 +38,7 @@ TableActions tableActions(const Workbench &workbench)
     actions.isWatched = [&monitor](const Watch &watch) { return monitor.isWatched(watch); };
     actions.writeUnknown
         = [&commands](Device &device, int field, std::int64_t raw) { commands.writeUnknown(device, field, raw); };
+    actions.writeSafely = safeWrites(workbench);
     actions.setUnfolded = [&monitor](const std::set<int> &fields) { monitor.setUnfolded(fields); };
     return actions;
 }

@@ -21,10 +21,14 @@ struct TableActions {
     std::function<bool(const Watch &)> isWatched;
     /// A register that may only be tried (Field::mayBeTried), after a person has insisted.
     std::function<void(Device &, int field, std::int64_t raw)> writeUnknown = {};
+    /// The safe way of a write with consequences (consequencesdialog.h); of Torque Enable: on, with the goal at rest.
+    std::function<void(Device &, int field, std::int64_t raw, bool torqueBack)> writeSafely = {};
     /// Which fields of long runs are in sight (Monitor::setUnfolded).
     std::function<void(const std::set<int> &fields)> setUnfolded = {};
 };
 
+/// Of this workbench; nothing where it has no settings.
+std::function<void(Device &, int field, std::int64_t raw, bool torqueBack)> safeWrites(const Workbench &workbench);
 TableActions tableActions(const Workbench &workbench);
 
 } // namespace dynascope

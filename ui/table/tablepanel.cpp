@@ -3,6 +3,7 @@
 
 #include "ui/common/elidedlabel.h"
 #include "ui/common/loweredge.h"
+#include "ui/table/consequencesdialog.h"
 #include "ui/table/editflow.h"
 #include "ui/table/fielddelegate.h"
 #include "ui/table/fieldfiltermodel.h"
@@ -122,6 +123,7 @@ void TablePanel::connectParts()
             [this](const std::vector<Device *> &devices, int field, qint64 raw) {
                 askToWriteUnknown(devices, field, raw, m_actions.writeUnknown, this);
             });
+    connect(m_model, &FieldTableModel::consequencesWanted, this, &TablePanel::tellConsequences);
     connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::notWritten);
     connect(m_view, &TableView::plotToggled, this, &TablePanel::togglePlot);
     connect(m_view, &QWidget::customContextMenuRequested, this, &TablePanel::showMenu);
@@ -222,11 +224,22 @@ void TablePanel::refreshWatches()
 
 void TablePanel::setUnits(const UnitPreferences &units)
 {
+    m_units = units;
     m_delegate->setUnits(units);
     m_words->setUnits(units);
     m_goals->setUnits(units);
     m_help->setUnits(units);
     m_help->showCell(valueCell());
+}
+
+void TablePanel::tellConsequences(const std::vector<Device *> &devices, int field, qint64 raw)
+{
+    AskedWrite write{devices, field, raw, m_units, {}, {}};
+    write.writeOnly = [this, field, raw](Device &device) { m_actions.write(device, field, raw); };
+    write.writeSafely = [this, field, raw](Device &device, bool torqueBack) {
+        m_actions.writeSafely(device, field, raw, torqueBack);
+    };
+    askAboutConsequences(std::move(write), this);
 }
 
 QModelIndex TablePanel::valueCell() const

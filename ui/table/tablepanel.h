@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/monitor.h"
+#include "core/table/units.h"
 #include "ui/common/workbench.h"
 #include "ui/table/tableactions.h"
 
@@ -26,7 +27,6 @@ class LockBar;
 class TableEmpty;
 class TableTools;
 class TableView;
-struct UnitPreferences;
 
 /// The control table of the selected devices: search, filters, grid with editors, goal sliders, why a field is locked.
 class TablePanel : public QWidget
@@ -72,6 +72,7 @@ private:
     void copyValue();
     void showNote();
     void tellUnfolded();
+    void tellConsequences(const std::vector<Device *> &devices, int field, qint64 raw);
     void selectField(const QString &name);
 
     TableActions m_actions;
@@ -91,6 +92,7 @@ private:
     QStackedLayout *m_pages;
     EditFlow *m_flow;
     std::map<QString, bool> m_folded; ///< groups that a person folded or opened, by title
+    UnitPreferences m_units;
     bool m_arranging = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/window/torqueguard.h"
 
-#include "core/session/commands.h"
+#include "core/session/settingscommands.h"
 #include "ui/common/present.h"
 
 #include <QMessageBox>
@@ -19,6 +19,9 @@ TorqueGuard::TorqueGuard(const Workbench &workbench, QWidget *window)
     connect(&workbench.session, &Session::deviceAdded, this, &TorqueGuard::follow);
     connect(&workbench.session, &Session::deviceAboutToBeRemoved, this,
             [this](Device *device) { m_enabled.erase(device->key()); });
+    if (workbench.settings)
+        connect(workbench.settings, &SettingsCommands::torqueTurnedOn, this,
+                [this](DeviceKey key) { noteEnabled({key}); });
     for (Device *device : workbench.session.devices())
         follow(device);
 }
