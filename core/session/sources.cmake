@@ -27,7 +27,10 @@ target_sources(dynascope_core PRIVATE
     session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
+    session/ramguard.cpp session/ramguard.h
+    session/rammarks.cpp session/rammarks.h
     session/reopener.cpp session/reopener.h
+    session/restartsigns.cpp session/restartsigns.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/stopcontrol.cpp session/stopcontrol.h

@@ -211,6 +211,7 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
         }
     }
     emit entriesChanged();
+    emit ended(number);
 }
 
 void Journal::flush()
