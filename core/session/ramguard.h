@@ -9,12 +9,6 @@
 
 namespace dynascope {
 
-enum class RamState {
-    NotSet,
-    Set,  ///< in this session; gone at power-off
-    Lost, ///< it was, and the device has restarted since
-};
-
 /// How a restart was noticed.
 enum class RestartSign {
     Tick,         ///< Realtime Tick began anew

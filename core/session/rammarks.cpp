@@ -70,6 +70,10 @@ bool RamMarks::take(const ControlTable &table, const JournalEntry &entry)
                     return table.fields()[at(mark.first)].area == Area::Hybrid;
                 });
             } else if (isLostAtPowerOff(table, field) && (i == 0 || isRevert)) {
+                const RamMark *known = find(index);
+                const bool isKnown = entry.state == JournalState::Done || !change.shown.empty();
+                if (known && known->isLost && !isKnown)
+                    continue; // nobody knows whether it has arrived: it stays on offer
                 written(field, index, *raw, partOf(change, change.before, field), entry.number);
                 changed = true;
             } else if (isLostAtPowerOff(table, field)) { // the servo itself did that: another mode, another gain

@@ -14,6 +14,13 @@ namespace dynascope {
 /// those.
 bool isLostAtPowerOff(const ControlTable &table, const Field &field);
 
+/// What a register is to its device's power.
+enum class RamState {
+    NotSet,
+    Set,  ///< in this session; gone at power-off
+    Lost, ///< it was, and the device has restarted since
+};
+
 /// A register that was set in this session.
 struct RamMark {
     std::int64_t set = 0;               ///< raw

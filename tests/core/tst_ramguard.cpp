@@ -424,6 +424,33 @@ private slots:
         QCOMPARE(world.state(2, u"Profile Velocity"), RamState::Set);
     }
 
+    /// Nobody knows whether the write arrived: what was lost stays on offer.
+    void anUnconfirmedWriteOfALostOne()
+    {
+        const ControlTablePtr table = m_catalog.findOrRaw(1020, 45);
+        const Field &field = *table->find(u"Profile Velocity");
+        const int index = table->indexOf(&field);
+        RamMarks marks;
+        JournalEntry entry;
+        entry.state = JournalState::Done;
+        entry.changes = {changeOf(field, 100)};
+        QVERIFY(marks.take(*table, entry));
+        PollValue value;
+        value.address = field.address;
+        value.data = bytesFromRaw(field, 0);
+        QCOMPARE(marks.restarted(*table, std::span(&value, 1)), 1);
+        entry.state = JournalState::Unconfirmed;
+        marks.take(*table, entry);
+        QVERIFY(marks.find(index)->isLost);
+        entry.changes.front().shown = entry.changes.front().after;
+        marks.take(*table, entry);
+        QVERIFY(!marks.find(index)->isLost);
+        entry.state = JournalState::Failed;
+        entry.changes.front().after = entry.changes.front().shown = bytesFromRaw(field, 0);
+        QVERIFY(!marks.take(*table, entry));
+        QVERIFY(marks.find(index));
+    }
+
     /// What somebody writes anew isn't lost any more.
     void aLostOneThatIsWritten()
     {

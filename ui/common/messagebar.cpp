@@ -52,6 +52,7 @@ MessageBar::MessageBar(QWidget *parent)
     : QFrame(parent)
     , m_icon(new QLabel(this))
     , m_label(new QLabel(this))
+    , m_other(new QPushButton(this))
     , m_action(new QPushButton(this))
     , m_close(new QToolButton(this))
 {
@@ -63,6 +64,7 @@ MessageBar::MessageBar(QWidget *parent)
     m_label->setTextInteractionFlags(Qt::TextSelectableByMouse);
     m_label->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
     m_action->setObjectName(QStringLiteral("messageAction"));
+    m_other->setObjectName(QStringLiteral("messageOtherAction"));
     m_close->setObjectName(QStringLiteral("messageClose"));
     m_close->setIcon(icon(QStringLiteral("close")));
     m_close->setIconSize(QSize(16, 16));
@@ -75,6 +77,7 @@ MessageBar::MessageBar(QWidget *parent)
     layout->setSpacing(8);
     layout->addWidget(m_icon);
     layout->addWidget(m_label, 1);
+    layout->addWidget(m_other);
     layout->addWidget(m_action);
     layout->addWidget(m_close);
 
@@ -86,6 +89,10 @@ MessageBar::MessageBar(QWidget *parent)
         if (m_dismissable)
             dismiss();
         if (action)
+            action();
+    });
+    connect(m_other, &QPushButton::clicked, this, [this] {
+        if (const auto action = m_current ? m_current->otherAction : nullptr)
             action();
     });
     hide();
@@ -147,6 +154,8 @@ void MessageBar::show(Message message)
         icon(iconName(m_current->kind), tintOf(m_current->kind)).pixmap(QSize(20, 20), devicePixelRatioF()));
     m_action->setText(m_current->actionText);
     m_action->setVisible(!m_current->actionText.isEmpty());
+    m_other->setText(m_current->otherText);
+    m_other->setVisible(!m_current->otherText.isEmpty());
     updateText();
     setVisible(true);
     update();

@@ -21,9 +21,11 @@ struct Message {
     QString actionText;           ///< empty: no button
     std::function<void()> action; ///< called on the GUI thread; the bar closes then
     QString topic{};                ///< what it is about: the newest of a topic replaces those before it, whatever their rank
+    QString otherText{}; ///< of a second button, for a look at it: the bar stays; empty: none
+    std::function<void()> otherAction{};
 };
 
-/// One line over the lower edge of the work area: icon, text, perhaps one button. Shows the message that matters most; of those of lower
+/// One line over the lower edge of the work area: icon, text, perhaps one button or two. Shows the message that matters most; of those of lower
 /// rank the one that matters most waits behind it, the newest where several do alike. The same text again counts up. Success and info go by themselves. Texts
 /// may begin in lower case and end without a full stop.
 class MessageBar : public QFrame
@@ -58,6 +60,7 @@ private:
 
     QLabel *m_icon;
     QLabel *m_label;
+    QPushButton *m_other;
     QPushButton *m_action;
     QToolButton *m_close;
     QTimer m_hideTimer;

@@ -11,6 +11,7 @@ class StopControl;
 class PortList;
 class Journal;
 class Undo;
+class RamGuard;
 
 /// What the window's parts work on. Made by app, which owns all of it and outlives the window.
 struct Workbench {
@@ -22,6 +23,7 @@ struct Workbench {
     PortList &ports;
     Journal *journal = nullptr; ///< with `undo`, or neither
     Undo *undo = nullptr;
+    RamGuard *ramGuard = nullptr; ///< only with `journal`
 };
 
 } // namespace dynascope
