@@ -25,6 +25,7 @@
 #include "ui/window/layoutmanager.h"
 #include "ui/window/menus.h"
 #include "ui/window/outcomes.h"
+#include "ui/window/restartnotice.h"
 #include "ui/window/statusview.h"
 #include "ui/window/torqueguard.h"
 #include "ui/window/unitmenu.h"
@@ -93,6 +94,12 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
         const std::vector<Device *> selected = m_devices->selectedDevices();
         return std::ranges::find(selected, &device) != selected.end();
     });
+    if (m_workbench.ramGuard) {
+        new RestartNotice(workbench, *m_messages, [this](Device &device) {
+            m_devices->selectDevice(&device);
+            m_table->showSetHere();
+        });
+    }
     connectConnection();
     connectDevices();
     connectPlots();

@@ -8,6 +8,7 @@ target_sources(dynascope_ui PRIVATE
     window/layoutmanager.cpp window/layoutmanager.h
     window/menus.cpp window/menus.h
     window/outcomes.cpp window/outcomes.h
+    window/restartnotice.cpp window/restartnotice.h
     window/statusview.cpp window/statusview.h
     window/torqueguard.cpp window/torqueguard.h
     window/unitmenu.cpp window/unitmenu.h

@@ -53,12 +53,14 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_undo(m_session, m_commands)
     , m_settings(m_session, m_commands)
     , m_monitor(m_session)
+    , m_ramGuard(m_session, m_monitor, m_commands, m_journal)
     , m_stop(m_session, m_commands)
 {
     m_journal.setPatience({}); // STOP waits for no other program
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
-        Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines, &m_journal, &m_undo, &m_settings});
+        Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines, &m_journal, &m_undo, &m_settings,
+                  &m_ramGuard});
     m_window->setScheme(storedScheme());
     m_window->setRefusedTables(m_tables.refused);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),

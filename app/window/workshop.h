@@ -4,6 +4,7 @@
 #include "app/window/lines.h"
 #include "app/window/options.h"
 #include "core/session/journal/undo.h"
+#include "core/session/ramguard.h"
 #include "core/session/scanner.h"
 #include "core/session/settingscommands.h"
 #include "core/session/stopcontrol.h"
@@ -44,6 +45,7 @@ private:
     Undo m_undo;
     SettingsCommands m_settings;
     Monitor m_monitor;
+    RamGuard m_ramGuard;
     Scanner m_scanner;
     StopControl m_stop;
     std::unique_ptr<MainWindow> m_window;

@@ -97,6 +97,15 @@ void Monitor::setUnfolded(const std::set<int> &fields)
     replanSoon();
 }
 
+void Monitor::setSigns(DeviceKey device, const std::set<int> &fields)
+{
+    std::set<int> &signs = m_signs[device];
+    if (signs == fields)
+        return;
+    signs = fields;
+    replanSoon();
+}
+
 const History *Monitor::history(const Watch &watch) const
 {
     const auto at = m_histories.find(watch);
@@ -130,7 +139,9 @@ void Monitor::replan()
             if (m_paused)
                 break;
             const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
-            DeviceWatches watches{device.get(), {}, isSelected, isSelected ? m_unfolded : std::set<int>()};
+            DeviceWatches watches{device.get(), {}, isSelected, isSelected ? m_unfolded : std::set<int>(), {}};
+            if (const auto signs = m_signs.find(device->key()); signs != m_signs.end())
+                watches.signs = signs->second;
             for (auto at = m_watches.lower_bound({device->key(), 0});
                  at != m_watches.end() && at->device == device->key(); ++at) {
                 watches.fields.push_back(at->field);

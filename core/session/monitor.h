@@ -20,7 +20,7 @@ struct Watch {
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///
 /// Watched fields at full rate; RAM of the selected device at 10 Hz; Torque Enable, Hardware Error Status, temperature
-/// and voltage of all devices at 1 Hz.
+/// and voltage of all devices at 1 Hz; what tells of a restart each 9 s.
 class Monitor : public QObject
 {
     Q_OBJECT
@@ -35,6 +35,8 @@ public:
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
     /// Fields of long runs (indirect.h) that the grid shows of them; the others aren't polled.
     void setUnfolded(const std::set<int> &fields);
+    /// What is read of this device at least each 10 s, whatever else is: what tells of a restart.
+    void setSigns(DeviceKey device, const std::set<int> &fields);
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
@@ -60,6 +62,7 @@ private:
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
     std::set<int> m_unfolded;
+    std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back
     bool m_paused = false;
     QTimer m_replanTimer;
     struct SentPlan {

@@ -37,8 +37,11 @@ target_sources(dynascope_core PRIVATE
     session/profile/profilereading.cpp session/profile/profilereading.h
     session/profile/profilesave.cpp session/profile/profilesave.h
     session/profile/profilevalues.cpp session/profile/profilevalues.h
+    session/ramguard.cpp session/ramguard.h
+    session/rammarks.cpp session/rammarks.h
     session/reopener.cpp session/reopener.h
     session/resetplan.cpp session/resetplan.h
+    session/restartsigns.cpp session/restartsigns.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
     session/settings/applysettings.cpp session/settings/applysettings.h

@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 
 constexpr auto SelectedInterval = 100ms;
 constexpr auto StateInterval = 1000ms;
+constexpr auto SignInterval = 9000ms; ///< with a cycle that is late still within 10 s
 
 /// Those in long runs that nobody looks at.
 std::set<int> foldedFields(const DeviceWatches &watches)
@@ -70,8 +71,8 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
         addSpans(plan, device, 0ms, [&](const Field &field) {
             return std::ranges::find(watches.fields, static_cast<int>(&field - first)) != watches.fields.end();
         });
+        const std::set<int> folded = watches.isSelected ? foldedFields(watches) : std::set<int>();
         if (watches.isSelected) {
-            const std::set<int> folded = foldedFields(watches);
             addSpans(plan, device, SelectedInterval, [&](const Field &field) {
                 return isLive(field) && !folded.contains(static_cast<int>(&field - first));
             });
@@ -79,6 +80,12 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
         addSpans(plan, device, StateInterval, [&](const Field &field) {
             const bool isRead = watches.isSelected && isLive(field);
             return !isRead && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field));
+        });
+        addSpans(plan, device, SignInterval, [&](const Field &field) {
+            const int index = static_cast<int>(&field - first);
+            const bool isWatched = std::ranges::find(watches.fields, index) != watches.fields.end();
+            const bool isOnScreen = watches.isSelected && isLive(field) && !folded.contains(index);
+            return watches.signs.contains(index) && !isWatched && !isOnScreen && !isState(field);
         });
         plan.traits.push_back(device.traits());
     }

@@ -13,6 +13,7 @@ struct DeviceWatches {
     std::vector<int> fields;  ///< at full rate, indices of its table
     bool isSelected = false;  ///< its RAM is on screen: 10 Hz
     std::set<int> unfolded = {}; ///< fields of long runs (indirect.h) that are on screen, too
+    std::set<int> signs = {};    ///< read at least each 10 s, whatever else is
 };
 
 /// The spans to poll. Pure. Neighbouring fields are joined, gaps read through where that costs less than asking again;

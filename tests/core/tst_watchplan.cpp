@@ -51,6 +51,20 @@ private slots:
         QVERIFY(planWatches({{&device, {}, false}}, 57600).traits.front().returnDelayKnown);
     }
 
+    void signsOfARestartAreReadInTime()
+    {
+        Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        device.takeReadBack(m_table->indexOf(u"Return Delay Time"), 0);
+        device.takeReadBack(m_table->indexOf(u"Status Return Level"), 2);
+        const int tick = m_table->indexOf(u"Realtime Tick");
+        const int torque = m_table->indexOf(u"Torque Enable");
+        const QStringList state{QStringLiteral("#1 64+7 every 1000 ms"), QStringLiteral("#1 144+3 every 1000 ms")};
+        const QString sign = QStringLiteral("#1 120+2 every 9000 ms");
+        QCOMPARE(asText(planWatches({{&device, {}, false, {}, {tick, torque}}}, 57600)), state + QStringList(sign));
+        QVERIFY(!asText(planWatches({{&device, {}, true, {}, {tick, torque}}}, 57600)).contains(sign)); // on screen
+        QVERIFY(!asText(planWatches({{&device, {tick}, false, {}, {tick, torque}}}, 57600)).contains(sign)); // watched
+    }
+
     void neighboursAreReadTogether()
     {
         const Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});

@@ -84,6 +84,7 @@ public:
     /// Told of each packet before it goes out, with how many there were by then. Bus thread.
     std::function<void(int count, dynascope::ByteView packet)> onPacket;
     std::function<bool(dynascope::ByteView packet)> isLost; ///< nobody hears such a packet
+    std::atomic<dynascope::LineTime::rep> passing = 0; ///< so much virtual time goes by before the line's next look at it
 
 private:
     class TappedLine final : public dynascope::Line
@@ -96,7 +97,11 @@ private:
         }
 
         QString name() const override { return m_line.name(); }
-        dynascope::LineTime now() const override { return m_line.now(); }
+        dynascope::LineTime now() const override
+        {
+            m_line.advance(dynascope::LineTime(m_factory.passing.exchange(0)));
+            return m_line.now();
+        }
         dynascope::Result<void> write(dynascope::ByteView packet) override
         {
             if (m_factory.onPacket)
@@ -116,7 +121,7 @@ private:
 
     private:
         VirtualFactory &m_factory;
-        dynascope::sim::SimulatedLine m_line;
+        mutable dynascope::sim::SimulatedLine m_line;
         int m_count = 0;
     };
 };

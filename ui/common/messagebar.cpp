@@ -84,15 +84,16 @@ MessageBar::MessageBar(QWidget *parent)
     m_hideTimer.setSingleShot(true);
     connect(&m_hideTimer, &QTimer::timeout, this, &MessageBar::dismiss);
     connect(m_close, &QToolButton::clicked, this, &MessageBar::dismiss);
-    const auto obey = [this](std::function<void()> Message::*order) {
+    const auto obey = [this](std::function<void()> Message::*order, bool stays) {
         const auto action = m_current ? *m_current.*order : nullptr;
-        if (m_dismissable)
+        if (m_dismissable && !stays)
             dismiss();
         if (action)
             action();
     };
-    connect(m_action, &QPushButton::clicked, this, [obey] { obey(&Message::action); });
-    connect(m_other, &QPushButton::clicked, this, [obey] { obey(&Message::other); });
+    connect(m_action, &QPushButton::clicked, this, [obey] { obey(&Message::action, false); });
+    connect(m_other, &QPushButton::clicked, this,
+            [this, obey] { obey(&Message::other, m_current && m_current->staysForOther); });
     hide();
 }
 

@@ -23,6 +23,7 @@ struct Message {
     QString topic{};                ///< what it is about: the newest of a topic replaces those before it, whatever their rank
     QString otherText{};            ///< of a second button, beside `actionText`
     std::function<void()> other{};
+    bool staysForOther = false; ///< the second button is a look at something: the bar stays
 };
 
 /// One line over the lower edge of the work area: icon, text, perhaps one button or two. Shows the message that matters most; of those of lower

@@ -12,6 +12,7 @@ class PortList;
 class Journal;
 class Undo;
 class SettingsCommands;
+class RamGuard;
 
 /// What the window's parts work on. Made by app, which owns all of it and outlives the window.
 struct Workbench {
@@ -24,6 +25,7 @@ struct Workbench {
     Journal *journal = nullptr; ///< with `undo`, or neither
     Undo *undo = nullptr;
     SettingsCommands *settings = nullptr; ///< without it nothing is told before a write
+    RamGuard *ramGuard = nullptr; ///< only with `journal`
 };
 
 } // namespace dynascope

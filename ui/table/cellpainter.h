@@ -10,7 +10,7 @@ class QPainter;
 namespace dynascope {
 
 inline constexpr int CellMargin = 8; ///< left and right of what a cell says
-inline constexpr int DoubtMark = 14; ///< how large the mark of a doubtful register is
+inline constexpr int NameMark = 14; ///< how large a mark beside a name is: of what is doubtful, of what was set
 
 /// How wide the lane is in which units stand, so that the numbers left of it line up whatever their unit.
 int unitLaneWidth(const QFont &font);

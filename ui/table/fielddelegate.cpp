@@ -31,6 +31,14 @@ void takeLeft(QPainter *painter, QRect &rect, const QString &text)
     rect.setLeft(rect.left() + painter->fontMetrics().horizontalAdvance(shown) + CellMargin);
 }
 
+/// Paints a mark at the right end of `rect` and takes its width away from it.
+void takeMark(QPainter *painter, QRect &rect, const QString &name, const QColor &color)
+{
+    const QRect mark(rect.right() + 1 - NameMark, rect.center().y() - NameMark / 2, NameMark, NameMark);
+    paintIcon(painter, mark, name, color);
+    rect.setRight(mark.left() - 4);
+}
+
 } // namespace
 
 FieldDelegate::FieldDelegate(QObject *parent)
@@ -72,18 +80,20 @@ void FieldDelegate::paintGroup(QPainter *painter, const QStyleOptionViewItem &op
     painter->restore();
 }
 
-/// The name, a guess beside it, and at the right end a mark where something is doubtful.
+/// The name, a guess beside it, and at the right end marks: something is doubtful, it was set and goes with the power.
 void FieldDelegate::paintName(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
 {
     const Field &field = *fieldAt(index);
     const ThemeColors &theme = colors(option.palette);
     QRect rect = option.rect.adjusted(2, 0, -CellMargin, 0);
+    const auto state = static_cast<RamState>(index.data(RamStateRole).toInt());
     painter->save();
-    if (!field.doubt.isEmpty()) {
-        const QRect mark(rect.right() + 1 - DoubtMark, rect.center().y() - DoubtMark / 2, DoubtMark, DoubtMark);
-        paintIcon(painter, mark, QStringLiteral("help"), theme.warning);
-        rect.setRight(mark.left() - 4);
-    }
+    if (!field.doubt.isEmpty())
+        takeMark(painter, rect, QStringLiteral("help"), theme.warning);
+    if (state == RamState::Set)
+        takeMark(painter, rect, QStringLiteral("plug"), theme.accent);
+    else if (state == RamState::Lost)
+        takeMark(painter, rect, QStringLiteral("reboot"), theme.warning);
     painter->setFont(option.font);
     painter->setPen(option.palette.color(QPalette::Active, QPalette::Text));
     takeLeft(painter, rect, field.name);

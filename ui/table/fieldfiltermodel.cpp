@@ -55,9 +55,15 @@ void FieldFilterModel::setOnlyDifferent(bool on)
     invalidateRowsFilter();
 }
 
+void FieldFilterModel::setOnlySetHere(bool on)
+{
+    m_setHere = on;
+    invalidateRowsFilter();
+}
+
 bool FieldFilterModel::isFiltering() const
 {
-    return !m_words.isEmpty() || m_changed || m_writable || m_watched || m_different;
+    return !m_words.isEmpty() || m_changed || m_writable || m_watched || m_different || m_setHere;
 }
 
 bool FieldFilterModel::filterAcceptsRow(int row, const QModelIndex &parent) const
@@ -70,6 +76,7 @@ bool FieldFilterModel::filterAcceptsRow(int row, const QModelIndex &parent) cons
         && (!m_writable || field->isWritable())
         && (!m_changed || index.data(ChangedFromDefaultRole).toBool())
         && (!m_watched || index.data(WatchedRole).toInt() != Qt::Unchecked)
+        && (!m_setHere || index.data(RamStateRole).toInt() != static_cast<int>(RamState::NotSet))
         && (!m_different || index.data(DiffersRole).toBool());
 }
 

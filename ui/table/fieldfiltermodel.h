@@ -19,6 +19,7 @@ public:
     void setOnlyWritable(bool on);
     void setOnlyWatched(bool on);
     void setOnlyDifferent(bool on);      ///< between the devices
+    void setOnlySetHere(bool on);        ///< in this session, and gone with the power
     bool isFiltering() const;
 
 protected:
@@ -30,6 +31,7 @@ private:
     bool m_writable = false;
     bool m_watched = false;
     bool m_different = false;
+    bool m_setHere = false;
 };
 
 } // namespace dynascope

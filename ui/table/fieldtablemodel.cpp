@@ -115,7 +115,18 @@ std::vector<Device *> FieldTableModel::targets(int column) const
 
 void FieldTableModel::refreshWatches()
 {
-    const int column = columnOf(ColumnKind::Plot);
+    refreshColumn(ColumnKind::Plot);
+}
+
+void FieldTableModel::refreshMarks()
+{
+    refreshColumn(ColumnKind::Name);
+    emit updated();
+}
+
+void FieldTableModel::refreshColumn(ColumnKind kind)
+{
+    const int column = columnOf(kind);
     for (int group = 0; group < static_cast<int>(m_groups.size()); ++group) {
         const std::vector<char> all(m_dirty.size(), 1);
         emitRows(group, all, column, column);
@@ -218,6 +229,7 @@ QVariant FieldTableModel::fieldData(int field, const Column &column, int role) c
     case ControlTableRole: return QVariant::fromValue(m_devices.front()->sharedTable());
     case ResolutionRole: return m_devices.front()->table().resolution();
     case WatchedRole: return static_cast<int>(watched(field));
+    case RamStateRole: return static_cast<int>(ramState(field, column));
     case Qt::CheckStateRole:
         return column.kind == ColumnKind::Plot ? QVariant(static_cast<int>(watched(field))) : QVariant();
     case ChangedFromDefaultRole:
@@ -295,6 +307,17 @@ Qt::CheckState FieldTableModel::watched(int field) const
     if (count == 0)
         return Qt::Unchecked;
     return count == std::ssize(m_devices) ? Qt::Checked : Qt::PartiallyChecked;
+}
+
+/// The one that matters most.
+RamState FieldTableModel::ramState(int field, const Column &column) const
+{
+    RamState state = RamState::NotSet;
+    for (int i = 0; m_actions.ramState && i < static_cast<int>(m_devices.size()); ++i) {
+        if (!isValueKind(column.kind) || column.device == i)
+            state = std::max(state, m_actions.ramState({m_devices[static_cast<std::size_t>(i)]->key(), field}));
+    }
+    return state;
 }
 
 QVariant FieldTableModel::headerData(int section, Qt::Orientation orientation, int role) const

@@ -41,6 +41,7 @@ public:
     /// The devices an edit in this column writes to.
     std::vector<Device *> targets(int column) const;
     void refreshWatches(); ///< what isWatched says may have changed
+    void refreshMarks();   ///< what ramState says may have changed
 
     Column columnAt(int section) const { return m_columns[static_cast<std::size_t>(section)]; }
     int columnOf(ColumnKind kind, int device = 0) const; ///< −1 where there is none
@@ -80,6 +81,8 @@ private:
     bool isChangedFromDefault(int field, int device) const;
     bool isToBeAsked(const Device &device, int field, std::int64_t raw) const;
     Qt::CheckState watched(int field) const;
+    RamState ramState(int field, const Column &column) const;
+    void refreshColumn(ColumnKind kind);
     void note(int device, int first, int last);
     void flush();
     void emitRows(int group, const std::vector<char> &dirty, int firstColumn, int lastColumn);

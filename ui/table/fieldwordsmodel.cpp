@@ -8,17 +8,29 @@
 namespace dynascope {
 namespace {
 
-QString nameToolTip(const Field &field)
+QString nameToolTip(const Field &field, RamState state)
 {
     QStringList lines{field.name};
     if (!field.help.isEmpty())
         lines << field.help;
     if (!field.doubt.isEmpty())
         lines << FieldWordsModel::tr("Doubtful: %1").arg(field.doubt);
+    if (state != RamState::NotSet)
+        lines << ramStateText(state);
     return lines.join(u'\n');
 }
 
 } // namespace
+
+QString ramStateText(RamState state)
+{
+    switch (state) {
+    case RamState::Set: return FieldWordsModel::tr("Set in this session; gone at power-off.");
+    case RamState::Lost: return FieldWordsModel::tr("Was set in this session; gone since the device has restarted.");
+    case RamState::NotSet: break;
+    }
+    return {};
+}
 
 FieldWordsModel::FieldWordsModel(QObject *parent)
     : QIdentityProxyModel(parent)
@@ -166,7 +178,7 @@ QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, C
     if (kind == ColumnKind::Plot)
         return tr("Plot %1 (Space)").arg(field.name);
     if (kind == ColumnKind::Name)
-        return nameToolTip(field);
+        return nameToolTip(field, static_cast<RamState>(QIdentityProxyModel::data(index, RamStateRole).toInt()));
     if (kind == ColumnKind::Access)
         return field.mayBeTried() ? tr("Whether it may be written isn't known: an edit asks before it is sent")
                                   : accessText(field);

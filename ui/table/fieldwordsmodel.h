@@ -38,6 +38,8 @@ private:
     UnitPreferences m_units;
 };
 
+/// That it was set in this session and goes with the power, or has gone, a sentence; empty where it wasn't.
+QString ramStateText(RamState state);
 /// "0 … 4095"; "any" where that is all that four bytes hold, empty where nothing is stated. "?" for the limit that a
 /// register says which wasn't read yet.
 QString rangeText(const Field &field, const EffectiveField &effective);

@@ -128,6 +128,10 @@ QStringList HelpPanel::linesFor(const QModelIndex &cell, const Field &field) con
     const auto effective = cell.data(EffectiveRole).value<EffectiveField>();
     const int resolution = cell.data(ResolutionRole).toInt();
     QStringList lines;
+    if (const auto state = static_cast<RamState>(cell.data(RamStateRole).toInt()); state == RamState::Lost)
+        lines << warned(ramStateText(state), palette());
+    else if (state == RamState::Set)
+        lines << ramStateText(state);
     if (!field.help.isEmpty())
         lines << field.help.toHtmlEscaped();
     if (!field.doubt.isEmpty())

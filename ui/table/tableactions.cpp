@@ -40,6 +40,15 @@ TableActions tableActions(const Workbench &workbench)
         = [&commands](Device &device, int field, std::int64_t raw) { commands.writeUnknown(device, field, raw); };
     actions.writeSafely = safeWrites(workbench);
     actions.setUnfolded = [&monitor](const std::set<int> &fields) { monitor.setUnfolded(fields); };
+    if (RamGuard *guard = workbench.ramGuard) {
+        actions.ramState = [guard](const Watch &watch) { return guard->stateOf(watch.device, watch.field); };
+        actions.setAgain = [guard](const std::vector<Device *> &devices, RamGuard::Done done) {
+            std::vector<DeviceKey> keys;
+            for (const Device *device : devices)
+                keys.push_back(device->key());
+            guard->setAgain(keys, std::move(done));
+        };
+    }
     return actions;
 }
 
@@ -47,6 +56,8 @@ TablePanel::TablePanel(const Workbench &workbench, QWidget *parent)
     : TablePanel(tableActions(workbench), {}, parent)
 {
     connect(&workbench.monitor, &Monitor::watchesChanged, this, &TablePanel::refreshWatches);
+    if (workbench.ramGuard)
+        connect(workbench.ramGuard, &RamGuard::changed, this, &TablePanel::refreshMarks);
 }
 
 } // namespace dynascope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/monitor.h"
+#include "core/session/ramguard.h"
 #include "core/session/device.h"
 #include "core/result.h"
 
@@ -19,6 +19,10 @@ struct TableActions {
     std::function<void(const std::vector<Device *> &, std::function<void(Result<void>)> done)> torqueOff;
     std::function<void(Device &)> readAll;
     std::function<bool(const Watch &)> isWatched;
+    /// Was it set in this session, and goes with the power?
+    std::function<RamState(const Watch &)> ramState = {};
+    /// Sets again what was lost by a restart; `done` with the outcome.
+    std::function<void(const std::vector<Device *> &, std::function<void(Result<void>)> done)> setAgain = {};
     /// A register that may only be tried (Field::mayBeTried), after a person has insisted.
     std::function<void(Device &, int field, std::int64_t raw)> writeUnknown = {};
     /// The safe way of a write with consequences (consequencesdialog.h); of Torque Enable: on, with the goal at rest.

@@ -33,6 +33,8 @@ void popupTableMenu(const QModelIndex &cell, const TableMenuActions &actions, co
         add(menu, QStringLiteral("edit"), QMenu::tr("Edit"), actions.edit)->setShortcut(Qt::Key_F2);
         add(menu, QStringLiteral("copy"), QMenu::tr("Copy value"), actions.copyValue)->setShortcut(QKeySequence::Copy);
         add(menu, {}, QMenu::tr("Reset to default"), actions.resetToDefault);
+        if (actions.setAgain)
+            add(menu, {}, QMenu::tr("Set again what the restart took"), actions.setAgain);
         menu->addSeparator();
     }
     add(menu, QStringLiteral("refresh"), QMenu::tr("Read again"), actions.readAgain);

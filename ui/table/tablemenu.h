@@ -16,6 +16,7 @@ struct TableMenuActions {
     std::function<void()> edit;
     std::function<void()> copyValue;
     std::function<void()> resetToDefault;
+    std::function<void()> setAgain; ///< what a restart took; only where it did
     std::function<void()> readAgain;
     std::function<void(bool)> applyToAll; ///< only with several devices
     bool appliesToAll = false;

@@ -23,6 +23,7 @@
 #include <QGuiApplication>
 #include <QIODevice>
 #include <QLineEdit>
+#include <QPointer>
 #include <QScrollBar>
 #include <QShortcut>
 #include <QStackedLayout>
@@ -185,6 +186,7 @@ void TablePanel::setDevices(const std::vector<Device *> &devices)
     const int scrolled = m_view->verticalScrollBar()->value();
     m_model->setDevices(alike);
     m_tools->setDeviceCount(static_cast<int>(alike.size()));
+    refreshMarks();
     if (!alike.empty())
         m_view->makeRoomFor(alike.front()->table());
     m_view->applyColumnWidths();
@@ -220,6 +222,33 @@ void TablePanel::selectField(const QString &name)
 void TablePanel::refreshWatches()
 {
     m_model->refreshWatches();
+}
+
+void TablePanel::refreshMarks()
+{
+    m_model->refreshMarks();
+    const std::vector<Device *> &devices = m_model->devices();
+    m_tools->setAnySetHere(std::ranges::any_of(devices, [this](const Device *device) {
+        const auto fields = static_cast<int>(device->table().fields().size());
+        for (int field = 0; m_actions.ramState && field < fields; ++field) {
+            if (m_actions.ramState({device->key(), field}) != RamState::NotSet)
+                return true;
+        }
+        return false;
+    }));
+}
+
+void TablePanel::showSetHere()
+{
+    m_tools->showSetHere();
+}
+
+void TablePanel::setLostAgain()
+{
+    m_actions.setAgain(m_model->devices(), [here = QPointer<TablePanel>(this)](const Result<void> &result) {
+        if (here && !result && result.error().kind == ErrorKind::NotConfirmed) // of a failed write the cell says it
+            emit here->notWritten(result.error().text);
+    });
 }
 
 void TablePanel::setUnits(const UnitPreferences &units)
@@ -305,6 +334,8 @@ void TablePanel::showMenu(const QPoint &at)
             && cell.data(ChangedFromDefaultRole).toBool())
             actions.resetToDefault = [this, cell, initial = *field->initial] { m_flow->write(cell, initial); };
     }
+    if (m_actions.setAgain && cell.data(RamStateRole).toInt() == static_cast<int>(RamState::Lost))
+        actions.setAgain = [this] { setLostAgain(); };
     actions.readAgain = [this] {
         for (Device *device : std::vector<Device *>(m_model->devices()))
             m_actions.readAll(*device);

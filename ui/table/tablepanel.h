@@ -42,6 +42,8 @@ public:
     void setDevices(const std::vector<Device *> &devices); ///< of one model; empty shows what belongs here
     void setSelected(std::size_t count); ///< where that is more than the table shows, it says so
     void refreshWatches();                                 ///< what is plotted has changed
+    void refreshMarks(); ///< what was set in this session has
+    void showSetHere();  ///< nothing but that
     void setUnits(const UnitPreferences &units);
 
     QByteArray saveState() const; ///< column widths, what is folded
@@ -70,6 +72,7 @@ private:
     void togglePlot(const QModelIndex &cell);
     void showMenu(const QPoint &at);
     void copyValue();
+    void setLostAgain();
     void showNote();
     void tellUnfolded();
     void tellConsequences(const std::vector<Device *> &devices, int field, qint64 raw);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/device.h"
+#include "core/session/rammarks.h"
 
 #include <QMetaType>
 #include <QModelIndex>
@@ -27,6 +28,7 @@ enum TableRole {
     ResolutionRole,           ///< int: pulses per revolution
     DiffersRole,              ///< bool: not what the first device has, in a register a person sets
     ChangedFromDefaultRole,   ///< bool: writable, not as it left the factory; of any device but in values' columns
+    RamStateRole,             ///< int: RamState; of any device but in values' columns
     WatchedRole,              ///< int: Qt::CheckState over all devices
     LockRole,                 ///< QString: why it can't be written now; empty where it can
     PointsAtRole,             ///< qlonglong: the address that an Indirect Address or Data stands for; missing elsewhere

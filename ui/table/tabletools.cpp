@@ -45,6 +45,10 @@ TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
                   &FieldFilterModel::setOnlyWritable);
     connectFilter(addToggle("filterWatched", tr("Plotted"), tr("Only what is being plotted")),
                   &FieldFilterModel::setOnlyWatched);
+    m_setHere = addToggle("filterSetHere", tr("Set here"),
+                          tr("Only what was set in this session and is gone at power-off"));
+    connectFilter(m_setHere, &FieldFilterModel::setOnlySetHere);
+    m_setHere->hide();
     m_different = addToggle("filterDifferent", tr("Different"), tr("Only settings that differ between the devices"));
     connectFilter(m_different, &FieldFilterModel::setOnlyDifferent);
     m_editAll = addToggle("editAll", QString(), QString());
@@ -75,6 +79,22 @@ void TableTools::setDeviceCount(int count)
     if (!several) {
         m_different->setChecked(false);
         m_editAll->setChecked(false);
+    }
+}
+
+void TableTools::setAnySetHere(bool any)
+{
+    if (!any)
+        m_setHere->setChecked(false);
+    m_setHere->setVisible(any);
+}
+
+void TableTools::showSetHere()
+{
+    m_search->clear();
+    for (auto *button : findChildren<QToolButton *>()) {
+        if (button->isCheckable() && button != m_editAll)
+            button->setChecked(button == m_setHere && !m_setHere->isHidden());
     }
 }
 

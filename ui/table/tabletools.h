@@ -19,6 +19,8 @@ public:
     explicit TableTools(FieldFilterModel &filter, QWidget *parent = nullptr);
 
     void setDeviceCount(int count);
+    void setAnySetHere(bool any); ///< without any there is nothing to filter by
+    void showSetHere();           ///< nothing but what was set in this session
     QLineEdit *search() const { return m_search; }
     QToolButton *editAll() const { return m_editAll; }
 
@@ -35,6 +37,7 @@ private:
 
     FieldFilterModel &m_filter;
     QLineEdit *m_search;
+    QToolButton *m_setHere;
     QToolButton *m_different;
     QToolButton *m_editAll;
 };

@@ -85,7 +85,8 @@ void TableView::makeRoomFor(const ControlTable &table)
             need(ColumnKind::Default, QString::number(*field.initial));
         }
         need(ColumnKind::Range, rangeText(field, effective(field, {})));
-        const int mark = field.doubt.isEmpty() ? 0 : DoubtMark + 4;
+        const int marks = (field.doubt.isEmpty() ? 0 : 1) + (isLostAtPowerOff(table, field) ? 1 : 0);
+        const int mark = marks * (NameMark + 4);
         QString whole = field.name;
         if (!field.suggested.isEmpty())
             whole += QStringLiteral("  %1?").arg(field.suggested);

@@ -329,6 +329,7 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
         store(entry, false);
     }
     emit entriesChanged();
+    emit ended(number);
 }
 
 void Journal::flush()

@@ -60,6 +60,7 @@ public:
 
 signals:
     void entriesChanged();
+    void ended(qint64 number); ///< of this program's: what became of it is known now
     void failed(const QString &why);
 
 private:
