@@ -3,6 +3,7 @@
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
 #include "app/dxl/writing.h"
+#include "core/session/groupwrite.h"
 
 #include <algorithm>
 
@@ -149,6 +150,21 @@ ExitCode writeAllSafely(const Work &work, std::vector<Writing> &writings)
     return code;
 }
 
+/// An address may be another register on another model or firmware.
+Result<void> checkAddresses(const Work &work, const Targets &targets)
+{
+    std::vector<GroupMember> members;
+    for (const Device &device : targets.devices)
+        members.push_back({device.id(), device.table(), device.name()});
+    for (const RegisterArgument &argument : work.options.registers) {
+        if (!argument.isByAddress())
+            continue;
+        if (const auto same = checkSameMeaning(members, argument.address, argument.length); !same)
+            return same;
+    }
+    return {};
+}
+
 } // namespace
 
 ExitCode writeCommand(const Work &work)
@@ -159,6 +175,8 @@ ExitCode writeCommand(const Work &work)
             work.output.note(QStringLiteral("nothing was written, since not everybody answered"));
         return targets.code;
     }
+    if (const auto same = checkAddresses(work, targets); !same)
+        return work.output.refuse(same.error());
     std::vector<Writing> writings;
     for (Device &device : targets.devices) {
         auto prepared = prepare(device, work.options.registers);

@@ -31,7 +31,7 @@ SettingsCommands::SettingsCommands(Session &session, Commands &commands, QObject
 }
 
 void SettingsCommands::apply(Device &device, const std::vector<WantedSetting> &wanted, SettingsOptions options,
-                             Done done)
+                             Done done, JournalAuthor by)
 {
     const auto refuse = [&](const Error &error) {
         emit m_commands.failed(&device, error);
@@ -56,7 +56,7 @@ void SettingsCommands::apply(Device &device, const std::vector<WantedSetting> &w
     }
     device.line()->bus().run<SettingsOutcome>(
         Priority::Click, this,
-        [plan = *plan, hooks = hooksFor(device)](JobContext &context) {
+        [plan = *plan, hooks = hooksFor(device, by)](JobContext &context) {
             return applySettings(context, plan, posted(context, hooks));
         },
         [this, key = device.key(), plan = *plan, wanted, done = std::move(done)](const Result<SettingsOutcome> &outcome) {
@@ -67,9 +67,10 @@ void SettingsCommands::apply(Device &device, const std::vector<WantedSetting> &w
 }
 
 /// On the GUI thread: the journal, and the values as they come.
-SettingsHooks SettingsCommands::hooksFor(const Device &device)
+SettingsHooks SettingsCommands::hooksFor(const Device &device, JournalAuthor by)
 {
     JournalEntry as;
+    as.by = by;
     as.device = journalDevice(device);
     SettingsHooks shown;
     shown.ended = [this, key = device.key()](const SettingsWrite &, std::span<const PollValue>,

@@ -20,7 +20,8 @@ public:
 
     /// Refused while STOP holds where it might move anything or turn torque on. A consent that is missing is an outcome,
     /// not an error.
-    void apply(Device &device, const std::vector<WantedSetting> &wanted, SettingsOptions options, Done done = {});
+    void apply(Device &device, const std::vector<WantedSetting> &wanted, SettingsOptions options, Done done = {},
+               JournalAuthor by = JournalAuthor::Window);
 
 signals:
     void torqueTurnedOn(dynascope::DeviceKey device); ///< by an order of a person, or back after it had been turned off
@@ -30,7 +31,7 @@ private:
                 const Result<SettingsOutcome> &outcome);
     void show(Device &device, const std::vector<WantedSetting> &wanted, const SettingsPlan &plan,
               const SettingsOutcome &outcome);
-    SettingsHooks hooksFor(const Device &device);
+    SettingsHooks hooksFor(const Device &device, JournalAuthor by);
 
     Session &m_session;
     Commands &m_commands;

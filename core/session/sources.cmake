@@ -5,6 +5,7 @@ target_sources(dynascope_core PRIVATE
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
+    session/groupwrite.cpp session/groupwrite.h
     session/history.cpp session/history.h
     session/journal/journal.cpp session/journal/journal.h
     session/journal/journalentry.cpp session/journal/journalentry.h

@@ -146,6 +146,41 @@ private slots:
         QCOMPARE(instructions(Instruction::Write), 0);
     }
 
+    /// A name is each device's own register, by its firmware; an address that isn't the same one is refused.
+    void eachItsOwnAddress()
+    {
+        DxlBus bus(u"XL330-M288/52@57600:1,XL330-M288/53@57600:2,XL330-M288/51@57600:3"_s);
+        bus.call([](sim::SimulatedBus &there, LineTime) {
+            for (const int id : {1, 2, 3})
+                there.servo(id, 57600)->write(u"Indirect Address 1", 65); // LED
+        });
+        bus.forget();
+        const Outcome outcome = bus.dxl(QStringList{u"write"_s, u"1,2,3"_s, u"Indirect Data 1=1"_s});
+        QCOMPARE(outcome.err, QString());
+        QCOMPARE(outcome.code, 0);
+        int groups = 0;
+        for (const Bytes &packet : bus.sent()) {
+            groups += packet[7] == static_cast<std::uint8_t>(Instruction::SyncWrite)
+                      || packet[7] == static_cast<std::uint8_t>(Instruction::BulkWrite);
+        }
+        QCOMPARE(groups, 2); // firmware 51 and 52 in one
+        bus.call([](sim::SimulatedBus &there, LineTime) {
+            for (const int id : {1, 2, 3})
+                QCOMPARE(there.servo(id, 57600)->value(u"LED"), 1);
+        });
+        bus.forget();
+        const Outcome refused = bus.dxl(QStringList{u"write"_s, u"1,2,3"_s, u"led=off"_s, u"224:1=0"_s});
+        QCOMPARE(refused.code, 2);
+        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"224:1 is Indirect Data 17 of"_s),
+                 qPrintable(refused.err));
+        const Outcome missing = bus.dxl(QStringList{u"write"_s, u"1,2,3"_s, u"led=off"_s, u"Indirect Data 21=0"_s});
+        QCOMPARE(missing.code, 2);
+        bus.call([](sim::SimulatedBus &there, LineTime) {
+            for (const int id : {1, 2, 3})
+                QCOMPARE(there.servo(id, 57600)->value(u"LED"), 1);
+        });
+    }
+
     void whoRefusesSaysWhy()
     {
         // Nobody answers a Sync Write: that the watchdog has tripped is said by the device to which it is written alone.
