@@ -143,7 +143,7 @@ public:
                                  .arg(m_plan.differences())
                                  .arg(m_plan.joints.size())
                                  .arg(m_moves.isOver() ? QString() : QStringLiteral(", and joints moved"))))
-            return m_work.options.yes || isTerminal(stdin) ? ExitCode::Done : ExitCode::Usage;
+            return ExitCode::Usage;
         if (const auto moved = move(); !moved)
             return fail(moved.error());
         return write();
@@ -169,13 +169,16 @@ private:
         m_plan = std::move(*applied);
         if (!m_work.options.profile.move)
             return {};
-        auto moves = planProfileMoves(m_loaded.profile, m_comparison, m_options);
+        DirectJob job(m_work.bus);
+        const auto survey = surveyMoves(job, planProfileSurvey(m_comparison, m_work.catalog, m_options));
+        if (!survey)
+            return tl::unexpected(Error{survey.error().kind, survey.error().text + QLatin1String(NothingWritten)});
+        auto moves = planProfileMoves(m_loaded.profile, m_comparison, m_work.catalog, *survey, m_options);
         if (!moves)
             return tl::unexpected(Error{moves.error().kind, moves.error().text + QLatin1String(NothingWritten)});
         m_moves = std::move(*moves);
         if (m_moves.isOver())
             return {};
-        DirectJob job(m_work.bus);
         return checkMoves(job, m_moves);
     }
 

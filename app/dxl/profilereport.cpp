@@ -126,6 +126,8 @@ void showPlanned(Output &output, const JointApply &joint, const JointComparison 
         lines << joint.name + QStringLiteral(": ") + rowText(row);
         rows.push_back(rowDocument(row));
     }
+    if (!joint.resets.isEmpty())
+        lines << joint.name + QStringLiteral(": this resets %1").arg(joint.resets.join(QStringLiteral(", ")));
     if (joint.needsTorqueOff)
         lines << joint.name + QStringLiteral(": torque is on and would go off first");
     Document document;
@@ -133,6 +135,7 @@ void showPlanned(Output &output, const JointApply &joint, const JointComparison 
         .add("id", qint64(joint.found.id))
         .add("baud", qint64(joint.found.baudRate))
         .addFlag("needs_torque_off", joint.needsTorqueOff)
+        .add("resets", joint.resets)
         .add("registers", rows);
     output.result(lines.join(u'\n'), document);
 }

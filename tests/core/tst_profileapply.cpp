@@ -238,13 +238,15 @@ private slots:
         ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XM430-W350@57600:2,XM430-W350@115200:3"_s, profileOf(3));
         const auto comparison = world.check();
         QVERIFY(comparison);
-        auto plan = planProfileMoves(world.profile, *comparison, {});
-        QVERIFY2(plan, plan ? "" : qPrintable(plan.error().text));
-        QCOMPARE(plan->steps.size(), 2U);
         {
             MortalLine line(world.bus, ProfileRate);
             Bus program(line);
             DirectContext context(program);
+            const auto survey = surveyMoves(context, planProfileSurvey(*comparison, m_catalog, {}));
+            QVERIFY(survey);
+            auto plan = planProfileMoves(world.profile, *comparison, m_catalog, *survey, {});
+            QVERIFY2(plan, plan ? "" : qPrintable(plan.error().text));
+            QCOMPARE(plan->steps.size(), 2U);
             const auto checked = checkMoves(context, *plan);
             QVERIFY2(checked, checked ? "" : qPrintable(checked.error().text));
             const auto moved = moveDevices(context, *plan, {});
@@ -256,7 +258,34 @@ private slots:
         (void)world.apply();
         QVERIFY2(world.isDone, qPrintable(world.why));
         QCOMPARE(world.wrong(), QStringList());
-        QVERIFY(planProfileMoves(world.profile, *world.check(), {})->isOver());
+        QVERIFY(planProfileMoves(world.profile, *world.check(), m_catalog, {}, {})->isOver());
+    }
+
+    /// Nobody answers to a Ping of its Secondary ID, and yet it would hear what is meant for the other.
+    void movesToNoSecondaryId()
+    {
+        ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XM430-W350@57600:2"_s, profileOf(2));
+        world.bus.servo(1, ProfileRate)->write(u"Secondary ID", 2);
+        const auto comparison = world.check();
+        MortalLine line(world.bus, ProfileRate);
+        Bus program(line);
+        DirectContext context(program);
+        const auto survey = surveyMoves(context, planProfileSurvey(*comparison, m_catalog, {}));
+        QVERIFY(survey);
+        const auto plan = planProfileMoves(world.profile, *comparison, m_catalog, *survey, {});
+        QVERIFY(!plan);
+        QVERIFY2(plan.error().text.contains(u"Secondary ID"), qPrintable(plan.error().text));
+        QVERIFY(!planProfileMoves(world.profile, *comparison, m_catalog, {}, {})); // not known
+    }
+
+    void saysWhatIsResetBesides()
+    {
+        ProfileWorld world(m_catalog, servosOf(1), oneJoint("      Operating Mode: 4\n      Position P Gain: 800\n"));
+        const auto comparison = world.check();
+        const auto plan = planProfileApply(world.profile, *comparison, {});
+        QVERIFY(plan && plan->joints.size() == 1);
+        QVERIFY(plan->joints[0].resets.contains(u"Profile Velocity"_s));
+        QVERIFY(!plan->joints[0].resets.contains(u"Position P Gain"_s));
     }
 
 private:

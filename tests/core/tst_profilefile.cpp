@@ -229,7 +229,7 @@ joints:
         const auto profile = loadProfile(path, m_catalog);
         QVERIFY(!profile);
         QVERIFY2(profile.error().text.contains(u"larger than"), qPrintable(profile.error().text));
-        QCOMPARE(profileText(path)->size(), MaximumYamlSize + 1);
+        QVERIFY(!profileText(path));
         QCOMPARE(loadProfile(folder.filePath(u"none"_s), m_catalog).error().kind, ErrorKind::NotFound);
         QCOMPARE(loadProfile(folder.path(), m_catalog).error().kind, ErrorKind::BadFile);
     }

@@ -163,6 +163,7 @@ joints:
             head + joint + "\n  registers:   # none yet\n    Shutdown: Overload\n");
         row("a tilde behind registers", head + joint + "\n  registers: ~  # none yet\n",
             head + joint + "\n  registers:   # none yet\n    Shutdown: Overload\n");
+        row("no colon behind registers", head + joint + "\n  registers", head + joint + "\n  registers:\n    Shutdown: Overload");
         row("empty brackets", head + joint + "\n  registers: {}\n", head + joint + "\n  registers: { Shutdown: Overload }\n");
         row("no line end", head + joint, head + joint + "\n  registers:\n    Shutdown: Overload");
         row("brackets over lines", head + joint + "\n  registers: {\n    LED: 0 # }\n    }\n",
@@ -234,8 +235,8 @@ joints:
                     const EffectiveField units = effective(field, initial);
                     const std::int64_t low = std::max(units.minimum.value_or(smallestRaw(field)), smallestRaw(field));
                     const std::int64_t high = std::min(units.maximum.value_or(largestRaw(field)), largestRaw(field));
-                    for (int i = 0; i <= 40; ++i) {
-                        const std::int64_t raw = low + (high - low) * i / 40;
+                    for (int i = 0; i <= 12; ++i) {
+                        const std::int64_t raw = low + (high - low) * i / 12;
                         if (!checkRange(field, units, raw))
                             continue;
                         const QString text = textOfValue(*table, field, raw, initial);

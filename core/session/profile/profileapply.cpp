@@ -71,6 +71,12 @@ Result<JointApply> planJoint(const JointComparison &joint, const ProfileComparis
         ++apply.differences;
         const Field &field = joint.table->fields()[static_cast<std::size_t>(row.field)];
         apply.needsTorqueOff = apply.needsTorqueOff || (joint.hasTorque && field.needsTorqueOff());
+        for (const QString &reset : field.resets) {
+            const Field *other = joint.table->find(reset);
+            const bool isNamed = std::ranges::find(joint.rows, reset, &RegisterComparison::name) != joint.rows.end();
+            if (other && other->isWritable() && !isNamed && !apply.resets.contains(reset))
+                apply.resets << reset;
+        }
     }
     SettingsOptions settings;
     settings.mayTurnTorqueOff = options.mayTurnTorqueOff;
@@ -84,18 +90,47 @@ Result<JointApply> planJoint(const JointComparison &joint, const ProfileComparis
     return apply;
 }
 
-MoveDevice moverOf(const JointComparison &joint)
+/// A device of the line, whether a joint names it or not.
+struct OnLine {
+    Found found;
+    QString name;
+    ControlTablePtr table; ///< nullptr: of an unknown model
+    const JointComparison *joint = nullptr;
+
+    const Field *secondary() const { return table ? table->find(Known::SecondaryId) : nullptr; }
+    MoveDevice asMover() const
+    {
+        if (table)
+            return moveDevice(found, *table, name);
+        MoveDevice device;
+        device.place.id = found.id;
+        device.place.baudRate = found.baudRate;
+        device.place.modelNumber = found.modelNumber;
+        device.place.name = name;
+        device.firmware = found.firmware;
+        device.goal = {found.baudRate, found.id};
+        return device;
+    }
+};
+
+std::vector<OnLine> everybody(const ProfileComparison &comparison, const Catalog &catalog)
 {
-    if (joint.table)
-        return moveDevice(*joint.found, *joint.table, placeName(joint));
-    MoveDevice device;
-    device.place.id = joint.found->id;
-    device.place.baudRate = joint.found->baudRate;
-    device.place.modelNumber = joint.found->modelNumber;
-    device.place.name = placeName(joint);
-    device.firmware = joint.found->firmware;
-    device.goal = {joint.found->baudRate, joint.found->id};
-    return device;
+    std::vector<OnLine> all;
+    for (const JointComparison &joint : comparison.joints) {
+        if (joint.found)
+            all.push_back({*joint.found, placeName(joint), {}, &joint});
+    }
+    for (const Found &other : comparison.others)
+        all.push_back({other, tr("%1 (ID %2)").arg(modelName(catalog, other.modelNumber)).arg(other.id), {}, nullptr});
+    for (OnLine &device : all)
+        device.table = catalog.find(device.found.modelNumber, device.found.firmware);
+    return all;
+}
+
+bool mustMove(const OnLine &device, const ProfileApplyOptions &options)
+{
+    return device.joint && device.joint->state == JointComparison::State::AtOtherBaud
+           && isSelected(options, device.joint->joint);
 }
 
 bool endsAll(const Error &error)
@@ -144,22 +179,41 @@ Result<ProfileApplyPlan> planProfileApply(const Profile &profile, const ProfileC
     return plan;
 }
 
-Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileComparison &comparison,
-                                  const ProfileApplyOptions &options)
+MoveSurveyPlan planProfileSurvey(const ProfileComparison &comparison, const Catalog &catalog,
+                                 const ProfileApplyOptions &options)
 {
-    std::vector<MoveDevice> devices;
-    for (const JointComparison &joint : comparison.joints) {
-        if (!joint.found)
-            continue;
-        devices.push_back(moverOf(joint));
-        if (joint.state == JointComparison::State::AtOtherBaud && isSelected(options, joint.joint))
-            devices.back().goal = {profile.joints[joint.joint].baudRate, profile.joints[joint.joint].id};
+    MoveSurveyPlan plan;
+    const std::vector<OnLine> all = everybody(comparison, catalog);
+    if (std::ranges::none_of(all, [&](const OnLine &device) { return mustMove(device, options); }))
+        return plan;
+    for (const OnLine &device : all) {
+        if (const Field *field = device.secondary())
+            plan.secondaries.push_back({placeOf(device.found, *device.table, device.name), field->address});
     }
-    for (const Found &other : comparison.others) {
-        JointComparison stranger;
-        stranger.name = tr("a device that no joint names");
-        stranger.found = other;
-        devices.push_back(moverOf(stranger));
+    return plan;
+}
+
+Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileComparison &comparison, const Catalog &catalog,
+                                  const MoveSurvey &survey, const ProfileApplyOptions &options)
+{
+    const std::vector<OnLine> all = everybody(comparison, catalog);
+    if (std::ranges::none_of(all, [&](const OnLine &device) { return mustMove(device, options); }))
+        return MovePlan();
+    std::vector<MoveDevice> devices;
+    std::size_t asked = 0; // in the survey's order
+    for (const OnLine &device : all) {
+        devices.push_back(device.asMover());
+        if (device.secondary()) {
+            const auto id = asked < survey.secondaries.size() ? survey.secondaries[asked] : std::nullopt;
+            ++asked;
+            if (!id)
+                return failure(ErrorKind::NotConfirmed, tr("the Secondary ID of %1 could not be read").arg(device.name));
+            devices.back().secondaryId = *id <= MaximumId ? *id : -1; // beyond: it has none
+        }
+        if (mustMove(device, options)) {
+            const ProfileJoint &joint = profile.joints[device.joint->joint];
+            devices.back().goal = {joint.baudRate, joint.id};
+        }
     }
     auto plan = planMoves(std::move(devices));
     if (plan)

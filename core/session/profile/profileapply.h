@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/procedures/moveplan.h"
+#include "core/session/procedures/movedevices.h"
 #include "core/session/profile/profilecomparison.h"
 #include "core/session/settings/applysettings.h"
 
@@ -25,6 +25,7 @@ struct JointApply {
     SettingsPlan settings;       ///< all of its registers: a write may reset one that is right
     bool needsTorqueOff = false; ///< as it was read
     std::size_t differences = 0; ///< registers that are not as wanted
+    QStringList resets;          ///< what its writes put back to defaults, and the profile doesn't name
 };
 
 /// A joint to which nothing can be written, and why.
@@ -46,10 +47,14 @@ struct ProfileApplyPlan {
 Result<ProfileApplyPlan> planProfileApply(const Profile &profile, const ProfileComparison &comparison,
                                           const ProfileApplyOptions &options);
 
+/// What has to be known before joints are moved: for surveyMoves(). Empty where nobody has to.
+MoveSurveyPlan planProfileSurvey(const ProfileComparison &comparison, const Catalog &catalog,
+                                 const ProfileApplyOptions &options);
 /// Brings joints that are at another baud rate to theirs; for checkMoves() and moveDevices(), with line and adapter to
-/// be filled in. Over at once where nobody has to move. What was read anew afterwards is what is applied to.
-Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileComparison &comparison,
-                                  const ProfileApplyOptions &options);
+/// be filled in. Over at once where nobody has to move. What was read anew afterwards is what is applied to. The
+/// comparison is one that looked for others, too. InvalidArgument, as planMoves().
+Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileComparison &comparison, const Catalog &catalog,
+                                  const MoveSurvey &survey, const ProfileApplyOptions &options);
 
 /// Told on the bus thread; each may be empty. posted() (settingsjournal.h) brings the writes to another thread.
 struct ProfileApplyHooks {

@@ -25,7 +25,10 @@ Result<QByteArray> profileText(const QString &path)
     if (!file.open(QIODevice::ReadOnly))
         return failure(file.exists() ? ErrorKind::BadFile : ErrorKind::NotFound,
                        tr("%1: %2").arg(path, file.errorString()));
-    return file.read(MaximumYamlSize + 1); // one byte too many is enough to refuse it
+    QByteArray text = file.read(MaximumYamlSize + 1); // one byte too many is enough to refuse it
+    if (text.size() > MaximumYamlSize)
+        return failure(ErrorKind::BadFile, tr("%1: larger than %2 bytes").arg(path).arg(MaximumYamlSize));
+    return text;
 }
 
 Result<Profile> loadProfile(const QString &path, const Catalog &catalog)

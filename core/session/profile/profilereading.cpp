@@ -181,7 +181,9 @@ private:
             if (!joint.found || joint.found->modelNumber != target.place.modelNumber || !variantOf(target, *joint.found))
                 continue;
             const ProfileVariant &variant = *variantOf(target, *joint.found);
-            m_bus.addTraits(profileTraits(*joint.found, variant.fastReadsFrom, variant.receiveBuffer));
+            const Traits known = m_bus.traits(joint.found->id); // which may know more: delays, levels
+            if (known.baudRate != joint.found->baudRate || known.firmware != joint.found->firmware)
+                m_bus.addTraits(profileTraits(*joint.found, variant.fastReadsFrom, variant.receiveBuffer));
             joints.push_back(i);
         }
         auto left = readOf(joints);

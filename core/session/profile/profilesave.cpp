@@ -150,7 +150,7 @@ private:
             return m_edits.insertLines(yamlEnd(m_text, *registers), registers->column - 1, linesOf(values));
         if (registers) { // the key alone, or with a "~"
             const auto key = std::ranges::find(node.children, QStringLiteral("registers"), &YamlNode::text);
-            const qsizetype colon = m_text.indexOf(':', key->end) + 1;
+            const qsizetype colon = behindColon(*key);
             if (const qsizetype tilde = behindSpaces(colon); isNull(tilde))
                 m_edits.remove(tilde, tilde + (m_text[tilde] == '~' ? 1 : 4)); // or "null"
             return m_edits.insertLines(colon, key->column - 1 + layout.step, linesOf(values));
@@ -159,6 +159,15 @@ private:
                             QByteArrayList{QByteArrayLiteral("registers:")} + linesOf(values, layout.step));
     }
 
+    /// As the last word of a file a key may stand without one.
+    qsizetype behindColon(const YamlNode &key)
+    {
+        const qsizetype colon = behindSpaces(key.end);
+        if (colon < m_text.size() && m_text[colon] == ':')
+            return colon + 1;
+        m_edits.insert(key.end, ":");
+        return key.end;
+    }
     bool isNull(qsizetype at) const { return at < m_text.size() && QByteArrayView("~nN").contains(m_text[at]); }
     qsizetype behindSpaces(qsizetype at) const
     {
@@ -175,7 +184,7 @@ private:
             text = (registers ? QByteArrayLiteral("{ ") : QByteArrayLiteral("registers: { ")) + text + " }";
         if (&into == &node && registers) { // "registers: ~" in brackets: behind the colon
             const auto key = std::ranges::find(node.children, QStringLiteral("registers"), &YamlNode::text);
-            const qsizetype colon = m_text.indexOf(':', key->end) + 1;
+            const qsizetype colon = behindColon(*key);
             const qsizetype tilde = behindSpaces(colon);
             if (isNull(tilde))
                 m_edits.remove(tilde, tilde + (m_text[tilde] == '~' ? 1 : 4));
