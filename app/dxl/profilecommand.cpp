@@ -105,7 +105,8 @@ bool mayGoOn(const Work &work, const QString &what)
     if (!isTerminal(stdin)) {
         work.output.refuse({ErrorKind::InvalidArgument,
                             QStringLiteral("%1: say --yes, since nobody can be asked here, or --dry-run to see it; "
-                                           "nothing was written").arg(what)});
+                                           "nothing was written")
+                                .arg(what)});
         return false;
     }
     if (answersYes(QStringLiteral("%1. Type yes to go on:").arg(what)))
@@ -128,9 +129,10 @@ public:
     ExitCode run()
     {
         if (moveFileOf(m_work.options).exists() && !m_work.options.profile.dryRun)
-            return m_work.output.refuse({ErrorKind::InvalidArgument,
-                                         QStringLiteral("moves on this line were left half done: dxl move --resume goes "
-                                                        "on with them, --forget leaves it so; nothing was written")});
+            return m_work.output.refuse(
+                {ErrorKind::InvalidArgument,
+                 QStringLiteral("moves on this line were left half done: dxl move --resume goes "
+                                "on with them, --forget leaves it so; nothing was written")});
         if (const auto planned = plan(); !planned)
             return fail(planned.error());
         if (m_work.options.profile.dryRun || m_plan.differences() + m_moves.steps.size() == 0)
@@ -189,8 +191,10 @@ private:
             if (joint.needsTorqueOff)
                 names << joint.name;
         }
-        return QStringLiteral("torque of %1 is on and locks what has to be written; --torque-off turns it off, and what "
-                              "a joint carries may fall").arg(names.join(QStringLiteral(", ")));
+        return QStringLiteral(
+                   "torque of %1 is on and locks what has to be written; --torque-off turns it off, and what "
+                   "a joint carries may fall")
+            .arg(names.join(QStringLiteral(", ")));
     }
 
     bool willMove(const JointObstacle &obstacle) const
@@ -205,8 +209,10 @@ private:
             if (willMove(obstacle))
                 continue;
             const bool isAway = m_comparison.joints[obstacle.joint].state == JointComparison::State::AtOtherBaud;
-            code = m_work.output.fail({ErrorKind::NotFound, QStringLiteral("%1: %2%3").arg(obstacle.name, obstacle.why,
-                                       isAway ? QStringLiteral("; --move brings it there") : QString())});
+            code = m_work.output.fail(
+                {ErrorKind::NotFound, QStringLiteral("%1: %2%3")
+                                          .arg(obstacle.name, obstacle.why,
+                                               isAway ? QStringLiteral("; --move brings it there") : QString())});
         }
         return code;
     }
@@ -231,9 +237,10 @@ private:
             .add("baud", qint64(step.from.baudRate))
             .add("now_id", qint64(step.to.id))
             .add("now_baud", qint64(step.to.baudRate));
-        m_work.output.result(QStringLiteral("%1: %2 -> %3").arg(m_moves.devices[step.device].place.name,
-                                                               placeText(step.from), placeText(step.to)),
-                             document);
+        m_work.output.result(
+            QStringLiteral("%1: %2 -> %3")
+                .arg(m_moves.devices[step.device].place.name, placeText(step.from), placeText(step.to)),
+            document);
     }
 
     /// Nothing of it has to be kept: a joint is found again at either rate.

@@ -39,15 +39,17 @@ void ProfileArguments::describe(CLI::App &app, bool &yes)
     profile->add_option("--joints", typed.joints, "check, diff, apply: only these, by name: shoulder,elbow (all)")
         ->type_name("LIST");
     profile->add_flag("--quick", typed.quick, "check, diff: don't look for devices that no joint names");
-    profile->add_option("--bauds", typed.bauds,
-                        "save: baud rates to look for devices at: 57600,1000000 or all (those of the file, else that of "
-                        "--baud)")
+    profile
+        ->add_option("--bauds", typed.bauds,
+                     "save: baud rates to look for devices at: 57600,1000000 or all (those of the file, else that of "
+                     "--baud)")
         ->type_name("LIST");
     profile->add_option("--ids", typed.ids, "save: only these devices: 1,4-7 (everybody found)")->type_name("LIST");
     profile->add_option("--name", typed.name, "save: the robot's name in a new file")->type_name("NAME");
     profile->add_flag("--calibration", typed.calibration,
                       "save: also what belongs to one single device and not to its place (Homing Offset)");
-    profile->add_flag("--all", typed.all, "save: every register that can be written, also what is as the factory had it");
+    profile->add_flag("--all", typed.all,
+                      "save: every register that can be written, also what is as the factory had it");
     profile->add_flag("--dry-run", typed.dryRun, "apply: only say what would be written");
     profile->add_flag("--yes", yes, "apply: don't ask; needed where nobody can be asked");
     profile->add_flag("--move", typed.move, "apply: bring joints that are at another baud rate to theirs first");
@@ -55,9 +57,10 @@ void ProfileArguments::describe(CLI::App &app, bool &yes)
                       "apply: turn torque off where it locks a register; what a joint carries may fall");
     profile->add_flag("--torque-back", typed.torqueBack,
                       "apply: turn it on again afterwards, the goal being where the joint then is");
-    profile->footer("check ends with 0 where all is as wanted and with 1 where not; diff names each register. apply writes "
-                    "only what differs, EEPROM first, and reads it back; the same once more writes nothing. save changes "
-                    "values where they stand in the file and leaves the rest of it as it is.");
+    profile->footer(
+        "check ends with 0 where all is as wanted and with 1 where not; diff names each register. apply writes "
+        "only what differs, EEPROM first, and reads it back; the same once more writes nothing. save changes "
+        "values where they stand in the file and leaves the rest of it as it is.");
 }
 
 Result<ProfileOptions> ProfileArguments::understand() const
@@ -92,14 +95,17 @@ Result<ProfileOptions> ProfileArguments::understand() const
     options.torqueOff = typed.torqueOff;
     options.torqueBack = typed.torqueBack;
     const bool saves = options.action == ProfileAction::Save, applies = options.action == ProfileAction::Apply;
-    if (!saves && (options.calibration || options.all || !options.bauds.empty() || !options.ids.empty() || !options.name.isEmpty()))
+    if (!saves
+        && (options.calibration || options.all || !options.bauds.empty() || !options.ids.empty()
+            || !options.name.isEmpty()))
         return wrong(QStringLiteral("--bauds, --ids, --name, --calibration and --all are for save"));
     if (!applies && (options.dryRun || options.move || options.torqueOff || options.torqueBack))
         return wrong(QStringLiteral("--dry-run, --move, --torque-off and --torque-back are for apply"));
     if (saves && !options.joints.isEmpty())
         return wrong(QStringLiteral("--joints is for check, diff and apply; of save, --ids"));
     if (options.torqueBack && !options.torqueOff)
-        return wrong(QStringLiteral("--torque-back turns torque on again where --torque-off turned it off, which isn't given"));
+        return wrong(
+            QStringLiteral("--torque-back turns torque on again where --torque-off turned it off, which isn't given"));
     return options;
 }
 

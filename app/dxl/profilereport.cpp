@@ -96,10 +96,11 @@ void showJoint(Output &output, const Profile &profile, const JointComparison &jo
     }
     document.add("registers", rows);
     const bool isNamed = namesRegisters && !lines.isEmpty();
-    output.result(isNamed ? lines.join(u'\n')
-                          : QStringLiteral("%1 (%2, ID %3): %4")
-                                .arg(joint.name, wanted.model).arg(wanted.id).arg(summaryOf(joint)),
-                  document);
+    output.result(
+        isNamed
+            ? lines.join(u'\n')
+            : QStringLiteral("%1 (%2, ID %3): %4").arg(joint.name, wanted.model).arg(wanted.id).arg(summaryOf(joint)),
+        document);
 }
 
 void showOther(Output &output, const Catalog &catalog, const Found &found)
@@ -112,8 +113,9 @@ void showOther(Output &output, const Catalog &catalog, const Found &found)
         .add("model", model)
         .add("model_number", qint64(found.modelNumber))
         .add("firmware", qint64(found.firmware));
-    output.result(QStringLiteral("%1 (ID %2 at %3 bps): no joint names it").arg(model).arg(found.id).arg(found.baudRate),
-                  document);
+    output.result(
+        QStringLiteral("%1 (ID %2 at %3 bps): no joint names it").arg(model).arg(found.id).arg(found.baudRate),
+        document);
 }
 
 void showPlanned(Output &output, const JointApply &joint, const JointComparison &comparison)
@@ -173,7 +175,9 @@ void showApplied(Output &output, const JointApply &joint, const Result<SettingsO
         .addFlag("torque_is_back", outcome->torqueIsBack);
     const std::size_t written = outcome->count(SettingState::Written);
     QString text = QStringLiteral("%1 (ID %2): %3 written and read back")
-                       .arg(joint.name).arg(joint.found.id).arg(plural(written, "register", "registers"));
+                       .arg(joint.name)
+                       .arg(joint.found.id)
+                       .arg(plural(written, "register", "registers"));
     if (outcome->torqueTurnedOff)
         text += outcome->torqueIsBack ? QStringLiteral("; torque is on again") : QStringLiteral("; torque is off now");
     output.result(text, document);

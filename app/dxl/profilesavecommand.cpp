@@ -26,8 +26,9 @@ Result<std::vector<Found>> findAll(const Work &work, const std::vector<int> &rat
             if (!wanted.empty() && std::ranges::find(wanted, found.id) == wanted.end())
                 continue;
             if (!found.doubt.isEmpty())
-                return failure(ErrorKind::NotConfirmed, QStringLiteral("ID %1 at %2 bps: %3; nothing was saved")
-                                                            .arg(found.id).arg(rate).arg(found.doubt));
+                return failure(
+                    ErrorKind::NotConfirmed,
+                    QStringLiteral("ID %1 at %2 bps: %3; nothing was saved").arg(found.id).arg(rate).arg(found.doubt));
             all.push_back(found);
         }
         if (!scan->unreadable.isEmpty())
@@ -44,7 +45,9 @@ Result<std::vector<SavedDevice>> readAll(const Work &work, const std::vector<Fou
         const ControlTablePtr table = work.catalog.find(each.modelNumber, each.firmware);
         if (!table) {
             work.output.note(QStringLiteral("ID %1 at %2 bps is of the unknown model %3 and is left out")
-                                 .arg(each.id).arg(each.baudRate).arg(each.modelNumber));
+                                 .arg(each.id)
+                                 .arg(each.baudRate)
+                                 .arg(each.modelNumber));
             continue;
         }
         work.bus.addTraits(profileTraits(each, table->description().fastReadsFrom, table->receiveBuffer()));
@@ -57,7 +60,8 @@ Result<std::vector<SavedDevice>> readAll(const Work &work, const std::vector<Fou
         return tl::unexpected(images.error());
     for (std::size_t i = 0; i < devices.size(); ++i) {
         if (!(*images)[i])
-            return failure((*images)[i].error().kind, (*images)[i].error().text + QStringLiteral("; nothing was saved"));
+            return failure((*images)[i].error().kind,
+                           (*images)[i].error().text + QStringLiteral("; nothing was saved"));
         devices[i].image = *(*images)[i];
     }
     return devices;

@@ -35,9 +35,9 @@ private slots:
         QVERIFY2(world.isDone, qPrintable(world.why));
         QCOMPARE(world.wrong(), QStringList());
         // A new mode resets gains and profile (manual: "Operating Mode"): first it, then what it has reset.
-        QCOMPARE(world.writes(), QStringList({u"1:11"_s, u"1:80"_s, u"1:84"_s, u"1:108"_s, u"1:112"_s, u"2:9"_s, u"2:48"_s,
-                                              u"3:63"_s, u"3:112"_s, u"4:31"_s, u"5:44"_s, u"6:10"_s, u"6:80"_s, u"7:38"_s,
-                                              u"8:36"_s}));
+        QCOMPARE(world.writes(),
+                 QStringList({u"1:11"_s, u"1:80"_s, u"1:84"_s, u"1:108"_s, u"1:112"_s, u"2:9"_s, u"2:48"_s, u"3:63"_s,
+                              u"3:112"_s, u"4:31"_s, u"5:44"_s, u"6:10"_s, u"6:80"_s, u"7:38"_s, u"8:36"_s}));
         QCOMPARE(outcome.written(), 15U);
         (void)world.apply();
         QVERIFY(world.isDone);
@@ -177,15 +177,18 @@ private slots:
         (void)world.apply();
         QVERIFY2(world.why.startsWith(u"f.yaml:9:25: a: \"ms\" does not fit"), qPrintable(world.why));
         QCOMPARE(world.writes(), QStringList());
-        ProfileWorld old(m_catalog, u"XM430-W350/40@1000000:1"_s, oneJoint("      Shutdown: 0\n      Startup Configuration: 1\n"));
+        ProfileWorld old(m_catalog, u"XM430-W350/40@1000000:1"_s,
+                         oneJoint("      Shutdown: 0\n      Startup Configuration: 1\n"));
         (void)old.apply();
-        QVERIFY2(old.why.startsWith(u"f.yaml:9:30: a: this firmware has no Startup Configuration"), qPrintable(old.why));
+        QVERIFY2(old.why.startsWith(u"f.yaml:9:30: a: this firmware has no Startup Configuration"),
+                 qPrintable(old.why));
         QCOMPARE(old.writes(), QStringList());
     }
 
     void othersGoOn()
     {
-        ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XL430-W250@1000000:2,XM430-W350@1000000:4"_s, profileOf(4));
+        ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XL430-W250@1000000:2,XM430-W350@1000000:4"_s,
+                           profileOf(4));
         world.bus.servo(1, ProfileRate)->write(u"Shutdown", 0);
         (void)world.apply();
         QVERIFY(!world.isDone);

@@ -77,16 +77,17 @@ private slots:
 
     void saysWhoIsNotThere()
     {
-        const QByteArray yaml = "profile: 1\njoints:\n"
-                                "  - { name: there, model: XM430-W350, id: 1, baud: 1000000 }\n"
-                                "  - { name: gone, model: XM430-W350, id: 2, baud: 1000000 }\n"
-                                "  - { name: slow, model: XM430-W350, id: 3, baud: 1000000 }\n"
-                                "  - { name: other, model: XM430-W350, id: 4, baud: 1000000 }\n"
-                                "  - { name: old, model: XM430-W350, id: 5, baud: 1000000, firmware: 45 }\n"
-                                "  - { name: mute, model: XM430-W350, id: 6, baud: 1000000, registers: { Shutdown: 52 } }\n"
-                                "  - { name: lacks, model: XM430-W350, id: 7, baud: 1000000,\n"
-                                "      registers: { Startup Configuration: 0, Shutdown: 52 } }\n"
-                                "  - { name: away, model: XL430-W250, id: 1, baud: 57600 }\n";
+        const QByteArray yaml =
+            "profile: 1\njoints:\n"
+            "  - { name: there, model: XM430-W350, id: 1, baud: 1000000 }\n"
+            "  - { name: gone, model: XM430-W350, id: 2, baud: 1000000 }\n"
+            "  - { name: slow, model: XM430-W350, id: 3, baud: 1000000 }\n"
+            "  - { name: other, model: XM430-W350, id: 4, baud: 1000000 }\n"
+            "  - { name: old, model: XM430-W350, id: 5, baud: 1000000, firmware: 45 }\n"
+            "  - { name: mute, model: XM430-W350, id: 6, baud: 1000000, registers: { Shutdown: 52 } }\n"
+            "  - { name: lacks, model: XM430-W350, id: 7, baud: 1000000,\n"
+            "      registers: { Startup Configuration: 0, Shutdown: 52 } }\n"
+            "  - { name: away, model: XL430-W250, id: 1, baud: 57600 }\n";
         ProfileWorld world(m_catalog,
                            u"XM430-W350@1000000:1,XM430-W350@115200:3,XL430-W250@1000000:4,XM430-W350/40@1000000:5,"
                            "XM430-W350@1000000:6,XM430-W350/40@1000000:7,XL430-W250@57600:1,XL330-M288@1000000:9,"
@@ -117,7 +118,8 @@ private slots:
 
     void doubtful()
     {
-        ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XL430-W250@1000000:1,XM430-W350@1000000:2"_s, profileOf(2));
+        ProfileWorld world(m_catalog, u"XM430-W350@1000000:1,XL430-W250@1000000:1,XM430-W350@1000000:2"_s,
+                           profileOf(2));
         const auto found = world.check();
         QVERIFY2(found, found ? "" : qPrintable(found.error().text));
         QVERIFY(found->joints[0].state == JointComparison::State::Doubtful
@@ -165,12 +167,15 @@ private slots:
             for (const JointComparison &joint : found->joints) {
                 QVERIFY2(joint.isReadable() || !joint.why.isEmpty(), qPrintable(joint.name));
                 for (const RegisterComparison &each : joint.rows)
-                    QVERIFY2(!each.held || each.held->raw
-                                 == world.bus.servo(static_cast<int>(joint.joint) + 1, ProfileRate)->value(each.name),
-                             qPrintable(joint.name + u' ' + each.name));
+                    QVERIFY2(
+                        !each.held
+                            || each.held->raw
+                                   == world.bus.servo(static_cast<int>(joint.joint) + 1, ProfileRate)->value(each.name),
+                        qPrintable(joint.name + u' ' + each.name));
             }
             // Of what stands still for longer than anybody waits the reason is said.
-            QVERIFY2(allRead || fault.times > 1 || fault.time > 100ms, qPrintable(u"not read after reply %1"_s.arg(skip) + unread(*found)));
+            QVERIFY2(allRead || fault.times > 1 || fault.time > 100ms,
+                     qPrintable(u"not read after reply %1"_s.arg(skip) + unread(*found)));
         }
     }
 
@@ -205,10 +210,11 @@ private slots:
         quick.looksForOthers = false;
         const auto found = world.check(quick);
         QVERIFY(found && found->isAsWanted());
-        const double ratio = static_cast<double>(world.statistics.busy.count()) / static_cast<double>(world.took.count());
+        const double ratio =
+            static_cast<double>(world.statistics.busy.count()) / static_cast<double>(world.took.count());
         qInfo("20 servos in %.2f ms of simulated time, of which the wire is busy %.2f ms: %.3f; %lld exchanges",
-              static_cast<double>(world.took.count()) / 1e6, static_cast<double>(world.statistics.busy.count()) / 1e6, ratio,
-              static_cast<long long>(world.statistics.exchanges));
+              static_cast<double>(world.took.count()) / 1e6, static_cast<double>(world.statistics.busy.count()) / 1e6,
+              ratio, static_cast<long long>(world.statistics.exchanges));
         QVERIFY2(ratio > 0.8, qPrintable(QString::number(ratio)));
     }
 

@@ -17,8 +17,8 @@ namespace {
 /// A profile of one joint with these registers, from line 8 on.
 QByteArray withRegisters(const QByteArray &registers, const QByteArray &model = "XM430-W350")
 {
-    return "profile: 1\njoints:\n  - name: a\n    model: " + model
-           + "\n    id: 1\n    baud: 57600\n    registers:\n" + registers;
+    return "profile: 1\njoints:\n  - name: a\n    model: " + model + "\n    id: 1\n    baud: 57600\n    registers:\n"
+           + registers;
 }
 
 QByteArray joint(const QByteArray &name, int id)
@@ -56,7 +56,8 @@ joints:
       Operating Mode: 'Extended position control'
       Shutdown: Overload, Overheating
   - { name: wrist, model: xl430w250, id: 12, baud: 1000000 }
-)", u"f.yaml"_s, m_catalog);
+)",
+                                             u"f.yaml"_s, m_catalog);
         QVERIFY2(profile, profile ? "" : qPrintable(profile.error().text));
         QCOMPARE(profile->name, u"arm"_s);
         QCOMPARE(profile->joints.size(), 2U);
@@ -93,7 +94,8 @@ joints:
     {
         const QByteArray time = "      Profile Velocity: 200 ms\n";
         QVERIFY(profileFromYaml(withRegisters(time), u"f"_s, m_catalog));
-        const auto with = profileFromYaml(withRegisters(time + "      Drive Mode: Time-based profile\n"), u"f"_s, m_catalog);
+        const auto with =
+            profileFromYaml(withRegisters(time + "      Drive Mode: Time-based profile\n"), u"f"_s, m_catalog);
         QVERIFY2(with, with ? "" : qPrintable(with.error().text));
         const auto without = profileFromYaml(withRegisters(time + "      Drive Mode: None\n"), u"f"_s, m_catalog);
         QVERIFY(!without);
@@ -122,7 +124,8 @@ joints:
         row("unknown key", "profile: 1\nspeed: 3\njoints: []\n", "f.yaml:2:1: \"speed\" is no key of a profile");
         row("name is a list", "profile: 1\nname: [a]\njoints: []\n", "f.yaml:2:7: name is a text");
         row("joint is a word", head + "  - shoulder\n", "f.yaml:3:5: a joint is made of");
-        row("unknown key of a joint", head + "  - name: a\n    modle: X\n", "f.yaml:4:5: \"modle\" is no key of a joint");
+        row("unknown key of a joint", head + "  - name: a\n    modle: X\n",
+            "f.yaml:4:5: \"modle\" is no key of a joint");
         row("joint without a model", head + "  - name: a\n    id: 1\n    baud: 57600\n",
             "f.yaml:3:5: \"model\" of this joint is missing");
         row("unknown model", head + "  - { name: a, model: XM999, id: 1, baud: 57600 }\n",
@@ -135,7 +138,8 @@ joints:
         row("firmware out of range", head + "  - { name: a, model: XM430-W350, id: 1, baud: 57600, firmware: 256 }\n",
             "firmware is a whole number from 0 to 255");
         row("name twice", head + joint("a", 1) + joint("a", 2), "f.yaml:4:13: the joint of line 3 is called a, too");
-        row("id twice", head + joint("a", 1) + joint("b", 1), "f.yaml:4:5: ID 1 at 57600 bps is that of a (line 3), too");
+        row("id twice", head + joint("a", 1) + joint("b", 1),
+            "f.yaml:4:5: ID 1 at 57600 bps is that of a (line 3), too");
         row("name over lines", head + "  - name: \"a\\nb\"\n    model: XM430-W350\n    id: 1\n    baud: 57600\n",
             "f.yaml:3:11: name is a text of one line");
         row("unknown register", withRegisters("      Position Gain: 1\n"),
@@ -146,32 +150,44 @@ joints:
             "profile: 1\njoints:\n  - name: a\n    model: XM430-W350\n    id: 1\n    baud: 57600\n    firmware: 40\n"
             "    registers:\n      Acceleration Limit: 3\n",
             "f.yaml:9:7: XM430-W350 has no register \"Acceleration Limit\" at firmware 40 or newer");
-        row("register twice", withRegisters("      LED: 1\n      led: 0\n"), "f.yaml:9:7: led stands in line 8 already");
+        row("register twice", withRegisters("      LED: 1\n      led: 0\n"),
+            "f.yaml:9:7: led stands in line 8 already");
         row("same key twice", withRegisters("      LED: 1\n      LED: 0\n"), "f.yaml:9:7: this key stands twice");
         row("registers are a list", withRegisters("      - LED\n"), "f.yaml:8:7: registers are");
         row("value is a list", withRegisters("      LED: [1]\n"), "f.yaml:8:12: LED needs one value");
         row("no value", withRegisters("      LED:\n"), "LED needs one value");
-        row("value over lines", withRegisters("      LED: >\n        1\n"), "f.yaml:8:12: the value of LED stands in one line");
-        row("long value", withRegisters("      LED: " + QByteArray(300, '1') + "\n"), "f.yaml:8:12: the value of LED is too long");
+        row("value over lines", withRegisters("      LED: >\n        1\n"),
+            "f.yaml:8:12: the value of LED stands in one line");
+        row("long value", withRegisters("      LED: " + QByteArray(300, '1') + "\n"),
+            "f.yaml:8:12: the value of LED is too long");
         row("out of range", withRegisters("      Position P Gain: 16384\n"),
             "f.yaml:8:24: Position P Gain can't be 16384; its range is 0 to 16383");
         row("out of range in degrees", withRegisters("      Max Position Limit: 400 deg\n"),
             "f.yaml:8:27: Max Position Limit can't be");
-        row("beyond a limit of the profile", withRegisters("      Velocity Limit: 100\n      Drive Mode: 0\n      Profile Velocity: 101\n", "PH42-020-S300-R"),
+        row("beyond a limit of the profile",
+            withRegisters("      Velocity Limit: 100\n      Drive Mode: 0\n      Profile Velocity: 101\n",
+                          "PH42-020-S300-R"),
             "f.yaml:10:25: Profile Velocity can't be 101");
-        row("no value of it", withRegisters("      Operating Mode: Flying\n"), "f.yaml:8:23: \"Flying\" is no value of Operating Mode");
-        row("another unit", withRegisters("      Max Position Limit: 3 V\n"), "f.yaml:8:27: \"V\" does not fit Max Position Limit");
-        row("fraction", withRegisters("      Position P Gain: 1.5\n"), "f.yaml:8:24: Position P Gain takes a whole number");
+        row("no value of it", withRegisters("      Operating Mode: Flying\n"),
+            "f.yaml:8:23: \"Flying\" is no value of Operating Mode");
+        row("another unit", withRegisters("      Max Position Limit: 3 V\n"),
+            "f.yaml:8:27: \"V\" does not fit Max Position Limit");
+        row("fraction", withRegisters("      Position P Gain: 1.5\n"),
+            "f.yaml:8:24: Position P Gain takes a whole number");
         row("read only", withRegisters("      Present Position: 1\n"), "f.yaml:8:7: Present Position can't be written");
         row("torque", withRegisters("      Torque Enable: 1\n"), "f.yaml:8:7: Torque Enable would move the motor");
         row("goal", withRegisters("      Goal Position: 1\n"), "f.yaml:8:7: Goal Position would move the motor");
         row("goal of a wheel", withRegisters("      Moving Speed: 1\n", "XL-320"), "would move the motor");
-        row("indirect data", withRegisters("      Indirect Data 1: 1\n"), "f.yaml:8:7: Indirect Data 1 would move the motor");
+        row("indirect data", withRegisters("      Indirect Data 1: 1\n"),
+            "f.yaml:8:7: Indirect Data 1 would move the motor");
         row("id as a register", withRegisters("      ID: 2\n"), "f.yaml:8:7: ID is said by the joint's");
-        row("baud as a register", withRegisters("      Baud Rate: 1\n"), "f.yaml:8:7: Baud Rate is said by the joint's");
-        row("protocol", withRegisters("      Protocol Type: 1\n"), "f.yaml:8:7: Protocol Type makes the device do something");
+        row("baud as a register", withRegisters("      Baud Rate: 1\n"),
+            "f.yaml:8:7: Baud Rate is said by the joint's");
+        row("protocol", withRegisters("      Protocol Type: 1\n"),
+            "f.yaml:8:7: Protocol Type makes the device do something");
         row("mute", withRegisters("      Status Return Level: 0\n"), "f.yaml:8:28: at Status Return Level 0");
-        row("defaults are a list", "profile: 1\ndefaults: [1]\njoints: []\n", "f.yaml:2:11: defaults have a model's name");
+        row("defaults are a list", "profile: 1\ndefaults: [1]\njoints: []\n",
+            "f.yaml:2:11: defaults have a model's name");
         row("defaults of nobody", "profile: 1\ndefaults: { XL320: { LED: 1 } }\njoints:\n" + joint("a", 1),
             "f.yaml:2:13: no joint is a XL320");
         row("defaults that nobody has", "profile: 1\ndefaults: { all: { Speed: 1 } }\njoints:\n" + joint("a", 1),

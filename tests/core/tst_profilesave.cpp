@@ -74,14 +74,20 @@ private slots:
     {
         ProfileSaveOptions options;
         options.name = u"arm: left"_s;
-        const auto saved = saveProfile(
-            {}, u"f"_s,
-            {deviceOf(m_catalog, u"XM430-W350"_s, 1,
-                      {{u"Operating Mode"_s, 4}, {u"Max Position Limit"_s, 3072}, {u"Position P Gain"_s, 640},
-                       {u"Homing Offset"_s, 100}, {u"LED"_s, 1}, {u"Goal Position"_s, 7}, {u"Torque Enable"_s, 1},
-                       {u"Shutdown"_s, 36}, {u"Current Limit"_s, 1000}}, 45),
-             deviceOf(m_catalog, u"XL430-W250"_s, 2, {})},
-            m_catalog, options);
+        const auto saved = saveProfile({}, u"f"_s,
+                                       {deviceOf(m_catalog, u"XM430-W350"_s, 1,
+                                                 {{u"Operating Mode"_s, 4},
+                                                  {u"Max Position Limit"_s, 3072},
+                                                  {u"Position P Gain"_s, 640},
+                                                  {u"Homing Offset"_s, 100},
+                                                  {u"LED"_s, 1},
+                                                  {u"Goal Position"_s, 7},
+                                                  {u"Torque Enable"_s, 1},
+                                                  {u"Shutdown"_s, 36},
+                                                  {u"Current Limit"_s, 1000}},
+                                                 45),
+                                        deviceOf(m_catalog, u"XL430-W250"_s, 2, {})},
+                                       m_catalog, options);
         QVERIFY2(saved, saved ? "" : qPrintable(saved.error().text));
         QCOMPARE(QString::fromUtf8(saved->text), uR"(profile: 1
 name: 'arm: left'
@@ -105,10 +111,11 @@ joints:
 )"_s.arg(m_catalog.model(u"XL430-W250")->newestFirmware));
         QCOMPARE(saved->newJoints, 2);
         options.calibration = options.all = true;
-        const auto more = saveProfile({}, u"f"_s, {deviceOf(m_catalog, u"XM430-W350"_s, 1, {{u"Homing Offset"_s, 100}})},
-                                      m_catalog, options);
+        const auto more = saveProfile(
+            {}, u"f"_s, {deviceOf(m_catalog, u"XM430-W350"_s, 1, {{u"Homing Offset"_s, 100}})}, m_catalog, options);
         QVERIFY(more && more->text.contains("Homing Offset: 8.79 deg\n") && more->text.contains("LED: Off\n"));
-        QVERIFY(!more->text.contains("Goal") && !more->text.contains("Torque Enable") && !more->text.contains("Present"));
+        QVERIFY(!more->text.contains("Goal") && !more->text.contains("Torque Enable")
+                && !more->text.contains("Present"));
         QVERIFY(!saveProfile({}, u"f"_s, {}, m_catalog));
     }
 
@@ -120,8 +127,12 @@ joints:
                 text.replace("\n", "\r\n");
             const std::vector<SavedDevice> devices{
                 deviceOf(m_catalog, u"XM430-W350"_s, 11,
-                         {{u"Return Delay Time"_s, 0}, {u"Position P Gain"_s, 850}, {u"Max Position Limit"_s, 3072},
-                          {u"Min Position Limit"_s, 1000}, {u"Operating Mode"_s, 4}, {u"Shutdown"_s, 36},
+                         {{u"Return Delay Time"_s, 0},
+                          {u"Position P Gain"_s, 850},
+                          {u"Max Position Limit"_s, 3072},
+                          {u"Min Position Limit"_s, 1000},
+                          {u"Operating Mode"_s, 4},
+                          {u"Shutdown"_s, 36},
                           {u"Velocity Limit"_s, 100}}),
                 deviceOf(m_catalog, u"XL430-W250"_s, 12,
                          {{u"Return Delay Time"_s, 0}, {u"Temperature Limit"_s, 70}, {u"Shutdown"_s, 36}}),
@@ -138,9 +149,10 @@ joints:
             expected.replace("Shutdown: 52" + end, "Shutdown: 36" + end + "     Velocity Limit: 22.9 rev/min" + end);
             expected.replace("Limit: 72 }", "Limit: 70, Shutdown: 'Overheating, Overload' }");
             expected.replace("# last" + end, "# last" + end + "  registers:" + end + "     Return Delay Time: 5" + end
-                                 + "- name: joint 20" + end + "  model: XL330-M288" + end + "  id: 20" + end
-                                 + "  baud: 1000000" + end + "  firmware: 52" + end + "  registers:" + end
-                                 + "     Return Delay Time: 500 us" + end + "     Operating Mode: Extended position control" + end);
+                                                 + "- name: joint 20" + end + "  model: XL330-M288" + end + "  id: 20"
+                                                 + end + "  baud: 1000000" + end + "  firmware: 52" + end
+                                                 + "  registers:" + end + "     Return Delay Time: 500 us" + end
+                                                 + "     Operating Mode: Extended position control" + end);
             QCOMPARE(QString::fromUtf8(saved->text), QString::fromUtf8(expected));
             QCOMPARE(saved->changedValues, 6);
             QCOMPARE(saved->newJoints, 1);
@@ -163,24 +175,32 @@ joints:
             head + joint + "\n  registers:   # none yet\n    Shutdown: Overload\n");
         row("a tilde behind registers", head + joint + "\n  registers: ~  # none yet\n",
             head + joint + "\n  registers:   # none yet\n    Shutdown: Overload\n");
-        row("no colon behind registers", head + joint + "\n  registers", head + joint + "\n  registers:\n    Shutdown: Overload");
-        row("empty brackets", head + joint + "\n  registers: {}\n", head + joint + "\n  registers: { Shutdown: Overload }\n");
+        row("no colon behind registers", head + joint + "\n  registers",
+            head + joint + "\n  registers:\n    Shutdown: Overload");
+        row("empty brackets", head + joint + "\n  registers: {}\n",
+            head + joint + "\n  registers: { Shutdown: Overload }\n");
         row("no line end", head + joint, head + joint + "\n  registers:\n    Shutdown: Overload");
         row("brackets over lines", head + joint + "\n  registers: {\n    LED: 0 # }\n    }\n",
             head + joint + "\n  registers: {\n    LED: 0, Shutdown: Overload # }\n    }\n");
         row("a joint in brackets", head + "- { name: a, model: XL430-W250, id: 1, baud: 1000000 }\n",
             head + "- { name: a, model: XL430-W250, id: 1, baud: 1000000, registers: { Shutdown: Overload } }\n");
         row("all in brackets", "{profile: 1, joints: [{name: a, model: XL430-W250, id: 1, baud: 1000000}]}",
-            "{profile: 1, joints: [{name: a, model: XL430-W250, id: 1, baud: 1000000, registers: { Shutdown: Overload }}]}");
+            "{profile: 1, joints: [{name: a, model: XL430-W250, id: 1, baud: 1000000, registers: { Shutdown: Overload "
+            "}}]}");
         row("no joints yet", "profile: 1\njoints: []\n",
-            "profile: 1\njoints: [ { name: joint 1, model: XL430-W250, id: 1, baud: 1000000, firmware: 52, registers: { "
+            "profile: 1\njoints: [ { name: joint 1, model: XL430-W250, id: 1, baud: 1000000, firmware: 52, registers: "
+            "{ "
             "Shutdown: Overload } } ]\n");
         row("keys behind the joints", head + joint + "\nname: x\n",
             head + joint + "\n  registers:\n    Shutdown: Overload\nname: x\n");
-        row("registers in the middle", head + "- name: a\n  registers:\n    LED: 0\n\n  model: XL430-W250\n  id: 1\n  baud: 1000000\n",
-            head + "- name: a\n  registers:\n    LED: 0\n    Shutdown: Overload\n\n  model: XL430-W250\n  id: 1\n  baud: 1000000\n");
+        row("registers in the middle",
+            head + "- name: a\n  registers:\n    LED: 0\n\n  model: XL430-W250\n  id: 1\n  baud: 1000000\n",
+            head
+                + "- name: a\n  registers:\n    LED: 0\n    Shutdown: Overload\n\n  model: XL430-W250\n  id: 1\n  "
+                  "baud: 1000000\n");
         row("a default that is another", "profile: 1\ndefaults: { all: { Shutdown: None } }\njoints:\n" + joint + "\n",
-            "profile: 1\ndefaults: { all: { Shutdown: None } }\njoints:\n" + joint + "\n  registers:\n    Shutdown: Overload\n");
+            "profile: 1\ndefaults: { all: { Shutdown: None } }\njoints:\n" + joint
+                + "\n  registers:\n    Shutdown: Overload\n");
         row("byte order mark", "\xEF\xBB\xBF" + head + joint + "\n  registers:\n    Shutdown: None\n",
             "\xEF\xBB\xBF" + head + joint + "\n  registers:\n    Shutdown: Overload\n");
         row("quoted key", head + joint + "\n  \"registers\":\n    'Shutdown': 4 # µ\n",
@@ -203,15 +223,15 @@ joints:
     {
         const QByteArray text = "profile: 1\njoints:\n  - { name: a, model: XL430-W250, id: 1, baud: 1000000 }\n"
                                 "  - { name: b, model: XL430-W250, id: 2, baud: 1000000 }\n";
-        const auto saved = saveProfile(text, u"f"_s,
-                                       {deviceOf(m_catalog, u"XM430-W350"_s, 1, {{u"Operating Mode"_s, 4}})}, m_catalog);
+        const auto saved =
+            saveProfile(text, u"f"_s, {deviceOf(m_catalog, u"XM430-W350"_s, 1, {{u"Operating Mode"_s, 4}})}, m_catalog);
         QVERIFY(saved);
         QCOMPARE(saved->text, text);
         QCOMPARE(saved->notes.size(), 2);
         QVERIFY(saved->notes[0].contains(u"a is a XL430-W250 in the file, but a XM430-W350 answers there"));
         QVERIFY(saved->notes[1].startsWith(u"b was not read"));
-        const auto odd = saveProfile(text, u"f"_s,
-                                     {deviceOf(m_catalog, u"XL430-W250"_s, 1, {{u"Position P Gain"_s, 20000}})}, m_catalog);
+        const auto odd = saveProfile(
+            text, u"f"_s, {deviceOf(m_catalog, u"XL430-W250"_s, 1, {{u"Position P Gain"_s, 20000}})}, m_catalog);
         QVERIFY(odd);
         QCOMPARE(odd->text, text);
         QVERIFY2(odd->notes[0].contains(u"Position P Gain holds 20000"), qPrintable(odd->notes[0]));

@@ -203,7 +203,8 @@ private slots:
                                        << QStringList{u"profile"_s, u"check"_s, u"FILE"_s, u"--joints"_s, u"knee"_s}
                                        << u"has no joint \"knee\""_s;
         QTest::newRow("options of another action")
-            << QByteArray(Robot) << QStringList{u"profile"_s, u"check"_s, u"FILE"_s, u"--dry-run"_s} << u"are for apply"_s;
+            << QByteArray(Robot) << QStringList{u"profile"_s, u"check"_s, u"FILE"_s, u"--dry-run"_s}
+            << u"are for apply"_s;
         QTest::newRow("of save") << QByteArray(Robot) << QStringList{u"profile"_s, u"apply"_s, u"FILE"_s, u"--all"_s}
                                  << u"are for save"_s;
         QTest::newRow("back without off")

@@ -19,12 +19,18 @@ struct Deviation {
 /// The twelve that were sown, among eight joints.
 inline std::vector<Deviation> twelveDeviations()
 {
-    return {{1, QStringLiteral("Operating Mode"), 4},      {1, QStringLiteral("Position P Gain"), 640},
-            {2, QStringLiteral("Max Position Limit"), 4000}, {2, QStringLiteral("Return Delay Time"), 250},
-            {3, QStringLiteral("Shutdown"), 0},            {3, QStringLiteral("Profile Velocity"), 50},
-            {4, QStringLiteral("Temperature Limit"), 60},  {5, QStringLiteral("Velocity Limit"), 200},
-            {6, QStringLiteral("Drive Mode"), 1},          {6, QStringLiteral("Position D Gain"), 100},
-            {7, QStringLiteral("Current Limit"), 500},     {8, QStringLiteral("PWM Limit"), 800}};
+    return {{1, QStringLiteral("Operating Mode"), 4},
+            {1, QStringLiteral("Position P Gain"), 640},
+            {2, QStringLiteral("Max Position Limit"), 4000},
+            {2, QStringLiteral("Return Delay Time"), 250},
+            {3, QStringLiteral("Shutdown"), 0},
+            {3, QStringLiteral("Profile Velocity"), 50},
+            {4, QStringLiteral("Temperature Limit"), 60},
+            {5, QStringLiteral("Velocity Limit"), 200},
+            {6, QStringLiteral("Drive Mode"), 1},
+            {6, QStringLiteral("Position D Gain"), 100},
+            {7, QStringLiteral("Current Limit"), 500},
+            {8, QStringLiteral("PWM Limit"), 800}};
 }
 
 inline QString servosOf(int count)
@@ -38,11 +44,12 @@ inline QString servosOf(int count)
 /// Joints j1, j2... of one model, each with the same dozen of registers, as simulated servos come.
 inline QByteArray profileOf(int count)
 {
-    QByteArray yaml = "profile: 1\nname: test\ndefaults:\n  XM430-W350:\n"
-                      "    Return Delay Time: 0\n    Drive Mode: 0\n    Operating Mode: Position control\n"
-                      "    Temperature Limit: 80 degC\n    PWM Limit: 885\n    Current Limit: 1193\n    Velocity Limit: 480\n"
-                      "    Max Position Limit: 4095\n    Min Position Limit: 0\n    Shutdown: 52\n    Position P Gain: 900\n"
-                      "    Position D Gain: 10\n    Profile Velocity: 100\n    Profile Acceleration: 20\njoints:\n";
+    QByteArray yaml =
+        "profile: 1\nname: test\ndefaults:\n  XM430-W350:\n"
+        "    Return Delay Time: 0\n    Drive Mode: 0\n    Operating Mode: Position control\n"
+        "    Temperature Limit: 80 degC\n    PWM Limit: 885\n    Current Limit: 1193\n    Velocity Limit: 480\n"
+        "    Max Position Limit: 4095\n    Min Position Limit: 0\n    Shutdown: 52\n    Position P Gain: 900\n"
+        "    Position D Gain: 10\n    Profile Velocity: 100\n    Profile Acceleration: 20\njoints:\n";
     for (int id = 1; id <= count; ++id) {
         const QByteArray number = QByteArray::number(id);
         yaml += "  - { name: j" + number + ", model: XM430-W350, id: " + number + ", baud: 1000000 }\n";
@@ -52,7 +59,8 @@ inline QByteArray profileOf(int count)
 
 /// Simulated servos, and a program that reads and compares.
 struct ProfileWorld {
-    ProfileWorld(const Catalog &theCatalog, const QString &servos, const QByteArray &yaml) : catalog(theCatalog), bus(theCatalog)
+    ProfileWorld(const Catalog &theCatalog, const QString &servos, const QByteArray &yaml)
+        : catalog(theCatalog), bus(theCatalog)
     {
         populate(bus, catalog, servos);
         auto read = profileFromYaml(yaml, QStringLiteral("f.yaml"), catalog);
@@ -160,7 +168,9 @@ struct ProfileWorld {
             if (entry.fromController && instruction != Instruction::Ping && instruction != Instruction::Read
                 && instruction != Instruction::SyncRead && instruction != Instruction::BulkRead
                 && instruction != Instruction::FastSyncRead && instruction != Instruction::FastBulkRead)
-                list << QStringLiteral("%1:%2").arg(entry.bytes[4]).arg(littleEndian(ByteView(entry.bytes).subspan(8), 2));
+                list << QStringLiteral("%1:%2")
+                            .arg(entry.bytes[4])
+                            .arg(littleEndian(ByteView(entry.bytes).subspan(8), 2));
         }
         return list;
     }
@@ -183,7 +193,10 @@ inline QStringList differences(const ProfileComparison &comparison)
     for (const JointComparison &joint : comparison.joints) {
         for (const RegisterComparison &row : joint.rows) {
             if (row.state == RegisterComparison::State::Differs)
-                list << QStringLiteral("%1 %2: %3 -> %4").arg(joint.name, row.name).arg(row.held->raw).arg(row.wanted->raw);
+                list << QStringLiteral("%1 %2: %3 -> %4")
+                            .arg(joint.name, row.name)
+                            .arg(row.held->raw)
+                            .arg(row.wanted->raw);
             else if (row.state != RegisterComparison::State::Same)
                 list << QStringLiteral("%1 %2: %3").arg(joint.name, row.name, row.why);
         }

@@ -83,8 +83,8 @@ QString whyNotInProfile(ProfileUse use, const Field &field)
     case ProfileUse::ReadOnly: return tr("%1 can't be written").arg(field.name);
     case ProfileUse::Place: return tr("%1 is said by the joint's \"id\" and \"baud\"").arg(field.name);
     case ProfileUse::Motion: return tr("%1 would move the motor, which a profile never does").arg(field.name);
-    case ProfileUse::Order: return tr("%1 makes the device do something; a profile only says what is so")
-            .arg(field.name);
+    case ProfileUse::Order:
+        return tr("%1 makes the device do something; a profile only says what is so").arg(field.name);
     case ProfileUse::Setting:
     case ProfileUse::Calibration:
     case ProfileUse::State: break;

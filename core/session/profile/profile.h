@@ -11,10 +11,10 @@ namespace dynascope {
 
 /// One register of a joint and the value that it shall have.
 struct ProfileRegister {
-    QString name;          ///< the manufacturer's
-    QString text;          ///< its value as written: 180 deg, 0x10, Position control
+    QString name;             ///< the manufacturer's
+    QString text;             ///< its value as written: 180 deg, 0x10, Position control
     int line = 0, column = 0; ///< of the value
-    bool isShared = false; ///< from the file's defaults, not the joint's own
+    bool isShared = false;    ///< from the file's defaults, not the joint's own
 };
 
 struct ProfileJoint {
@@ -22,8 +22,8 @@ struct ProfileJoint {
     int modelNumber = 0;
     QString model;
     int id = 0;
-    int baudRate = 0;  ///< bits per second
-    int firmware = -1; ///< at least; −1: any
+    int baudRate = 0;                       ///< bits per second
+    int firmware = -1;                      ///< at least; −1: any
     std::vector<ProfileRegister> registers; ///< its own as they stand in the file, then the defaults that hold for it
     int line = 0, column = 0;
 

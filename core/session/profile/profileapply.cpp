@@ -33,7 +33,10 @@ QString faultIn(const Profile &profile, const JointComparison &joint)
             row.state == RegisterComparison::State::Wrong || row.state == RegisterComparison::State::NotThere;
         if (isFault)
             return QStringLiteral("%1:%2:%3: %4: %5; nothing was written")
-                .arg(profile.file).arg(row.line).arg(row.column).arg(joint.name, row.why);
+                .arg(profile.file)
+                .arg(row.line)
+                .arg(row.column)
+                .arg(joint.name, row.why);
     }
     return {};
 }
@@ -160,7 +163,8 @@ Result<ProfileApplyPlan> planProfileApply(const Profile &profile, const ProfileC
     for (const JointComparison &joint : comparison.joints) {
         if (!isSelected(options, joint.joint) || joint.state == JointComparison::State::AsWanted)
             continue;
-        const auto unread = std::ranges::find(joint.rows, RegisterComparison::State::Unread, &RegisterComparison::state);
+        const auto unread =
+            std::ranges::find(joint.rows, RegisterComparison::State::Unread, &RegisterComparison::state);
         if (joint.state != JointComparison::State::Differs) {
             plan.obstacles.push_back({joint.joint, joint.name, joint.why});
             continue;
@@ -207,7 +211,8 @@ Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileCompariso
             const auto id = asked < survey.secondaries.size() ? survey.secondaries[asked] : std::nullopt;
             ++asked;
             if (!id)
-                return failure(ErrorKind::NotConfirmed, tr("the Secondary ID of %1 could not be read").arg(device.name));
+                return failure(ErrorKind::NotConfirmed,
+                               tr("the Secondary ID of %1 could not be read").arg(device.name));
             devices.back().secondaryId = *id <= MaximumId ? *id : -1; // beyond: it has none
         }
         if (mustMove(device, options)) {

@@ -59,7 +59,8 @@ Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileCompariso
 /// Told on the bus thread; each may be empty. posted() (settingsjournal.h) brings the writes to another thread.
 struct ProfileApplyHooks {
     std::function<void(const JointApply &joint)> begun;
-    std::function<SettingsHooks(const JointApply &joint)> writes; ///< asked for before each joint: noted() for the journal
+    std::function<SettingsHooks(const JointApply &joint)>
+        writes; ///< asked for before each joint: noted() for the journal
     std::function<void(const JointApply &joint, const Result<SettingsOutcome> &outcome)> ended;
 };
 

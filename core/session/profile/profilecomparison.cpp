@@ -43,10 +43,10 @@ std::vector<RegisterComparison> compareRegisters(const ProfileJoint &joint, cons
             row.wanted = profileValue(table, *field, *wanted[i].raw, after);
         else
             row.why = wanted[i].raw.error().text;
-        row.state = !row.wanted                      ? State::Wrong
-                    : !row.held                      ? State::Unread
+        row.state = !row.wanted                        ? State::Wrong
+                    : !row.held                        ? State::Unread
                     : row.wanted->raw == row.held->raw ? State::Same
-                                                     : State::Differs;
+                                                       : State::Differs;
         if (row.state == State::Unread)
             row.why = tr("the device does not show it");
         rows.push_back(std::move(row));
@@ -80,8 +80,8 @@ JointComparison::State stateOfPlace(const ProfileJoint &joint, const JointReadin
         return State::Unreadable;
     }
     if (reading.found->firmware < joint.firmware) {
-        why = tr("its firmware is %1, the profile asks for %2 or newer")
-                  .arg(reading.found->firmware).arg(joint.firmware);
+        why =
+            tr("its firmware is %1, the profile asks for %2 or newer").arg(reading.found->firmware).arg(joint.firmware);
         return State::OldFirmware;
     }
     return State::AsWanted;

@@ -19,8 +19,8 @@ struct RegisterComparison {
     int field = -1; ///< index in the device's table; −1: NotThere
     Area area = Area::Ram;
     State state = State::Unread;
-    QString written;          ///< as the file has it
-    int line = 0, column = 0; ///< of that
+    QString written;                          ///< as the file has it
+    int line = 0, column = 0;                 ///< of that
     std::optional<ProfileValue> wanted, held; ///< each in the unit that holds on its side
     QString why;
 };
@@ -39,14 +39,17 @@ struct JointComparison {
     std::size_t joint = 0; ///< in the profile
     QString name;
     State state = State::Missing;
-    std::optional<Found> found;   ///< at its place, or where it is at another rate
-    ControlTablePtr table;        ///< of what was found, where that is its model
-    bool hasTorque = false;       ///< which locks the EEPROM
-    QString why;                  ///< what was seen, where it is neither AsWanted nor Differs
+    std::optional<Found> found; ///< at its place, or where it is at another rate
+    ControlTablePtr table;      ///< of what was found, where that is its model
+    bool hasTorque = false;     ///< which locks the EEPROM
+    QString why;                ///< what was seen, where it is neither AsWanted nor Differs
     std::vector<RegisterComparison> rows;
 
     std::size_t count(RegisterComparison::State state) const;
-    bool isReadable() const { return state == State::AsWanted || state == State::Differs || state == State::OldFirmware; }
+    bool isReadable() const
+    {
+        return state == State::AsWanted || state == State::Differs || state == State::OldFirmware;
+    }
 };
 
 struct ProfileComparison {

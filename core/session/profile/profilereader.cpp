@@ -96,7 +96,10 @@ private:
             return number;
         say(node, low == high ? tr("%1 is %2 here, not \"%3\"").arg(QLatin1String(key)).arg(low).arg(cut(node.text))
                               : tr("%1 is a whole number from %2 to %3, not \"%4\"")
-                                    .arg(QLatin1String(key)).arg(low).arg(high).arg(cut(node.text)));
+                                    .arg(QLatin1String(key))
+                                    .arg(low)
+                                    .arg(high)
+                                    .arg(cut(node.text)));
         return -1;
     }
 
@@ -107,7 +110,8 @@ private:
         if (node.kind == YamlNode::Kind::Scalar && !node.text.trimmed().isEmpty() && isPrintable
             && node.text.size() <= Profile::LongestName)
             return node.text;
-        say(node, tr("%1 is a text of one line, up to %2 characters").arg(QLatin1String(key)).arg(Profile::LongestName));
+        say(node,
+            tr("%1 is a text of one line, up to %2 characters").arg(QLatin1String(key)).arg(Profile::LongestName));
         return {};
     }
 
@@ -241,7 +245,9 @@ private:
         for (const BaudCode &code : table->description().baudCodes)
             rates << QString::number(code.rate);
         say(node, tr("%1 has no baud rate of %2; its rates are %3")
-                      .arg(joint.model).arg(joint.baudRate).arg(rates.join(u", ")));
+                      .arg(joint.model)
+                      .arg(joint.baudRate)
+                      .arg(rates.join(u", ")));
     }
 
     /// The tables that the joint may have, the likeliest first.
@@ -322,7 +328,8 @@ private:
             const ProfileRegister &each = joint.registers[i];
             const ControlTablePtr *table = &tables.front();
             Result<std::int64_t> raw = wanted[i].raw;
-            for (std::size_t other = 1; !wanted[i].field && other < tables.size() && !(*table)->find(each.name); ++other) {
+            for (std::size_t other = 1; !wanted[i].field && other < tables.size() && !(*table)->find(each.name);
+                 ++other) {
                 table = &tables[other];
                 raw = wantedValues(joint, **table, {})[i].raw;
             }
@@ -330,7 +337,8 @@ private:
             if (!field)
                 continue;
             if (raw && *raw == 0 && field == (*table)->find(Known::StatusReturnLevel))
-                raw = failure(ErrorKind::InvalidArgument, tr("at Status Return Level 0 nothing can be read, so nothing could be looked at again"));
+                raw = failure(ErrorKind::InvalidArgument,
+                              tr("at Status Return Level 0 nothing can be read, so nothing could be looked at again"));
             if (raw || mayBeRight(*field, joint))
                 continue;
             if (m_saidAt.emplace(std::pair(each.line, each.column), true).second)
@@ -357,7 +365,10 @@ private:
             if (!isNew)
                 say(joint.line, joint.column,
                     tr("ID %1 at %2 bps is that of %3 (line %4), too")
-                        .arg(joint.id).arg(joint.baudRate).arg(at->second->name).arg(at->second->line));
+                        .arg(joint.id)
+                        .arg(joint.baudRate)
+                        .arg(at->second->name)
+                        .arg(at->second->line));
         }
     }
 

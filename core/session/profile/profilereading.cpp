@@ -14,7 +14,7 @@ namespace dynascope {
 namespace {
 
 constexpr LineTime Stall = std::chrono::milliseconds(40); // of a busy host or adapter
-constexpr std::uint16_t ModelNumberAt = 0; // of every device of Protocol 2.0: "Model Number"
+constexpr std::uint16_t ModelNumberAt = 0;                // of every device of Protocol 2.0: "Model Number"
 
 /// Errors that are about the line, not about one device.
 bool endsAll(const Error &error)
@@ -68,8 +68,8 @@ ProfileTarget targetOf(const ProfileJoint &joint, const Catalog &catalog, const 
         const auto isWanted = [&](const Field &field) {
             return std::ranges::find(wanted, &field) != wanted.end() || (readsAll && isOfProfile(*table, field));
         };
-        target.variants.push_back({step, spansOf(*table, id, isWanted), table->description().fastReadsFrom,
-                                   table->receiveBuffer()});
+        target.variants.push_back(
+            {step, spansOf(*table, id, isWanted), table->description().fastReadsFrom, table->receiveBuffer()});
         Found found;
         found.id = id;
         found.baudRate = joint.baudRate;
@@ -130,8 +130,8 @@ private:
             const Bytes model = image ? image->bytes(ModelNumberAt, 2) : Bytes();
             const Bytes firmware = image ? image->bytes(target.firmwareAt, 1) : Bytes();
             if (!model.empty() && littleEndian(model, 2) == target.place.modelNumber && !firmware.empty())
-                m_reading.joints[i].found = Found{target.place.id, target.place.baudRate, target.place.modelNumber,
-                                                  firmware.front(), false, {}};
+                m_reading.joints[i].found = Found{
+                    target.place.id, target.place.baudRate, target.place.modelNumber, firmware.front(), false, {}};
             else
                 unknown.push_back(i);
         }
@@ -178,7 +178,8 @@ private:
         for (std::size_t i = 0; i < m_plan.targets.size(); ++i) {
             const JointReading &joint = m_reading.joints[i];
             const ProfileTarget &target = m_plan.targets[i];
-            if (!joint.found || joint.found->modelNumber != target.place.modelNumber || !variantOf(target, *joint.found))
+            if (!joint.found || joint.found->modelNumber != target.place.modelNumber
+                || !variantOf(target, *joint.found))
                 continue;
             const ProfileVariant &variant = *variantOf(target, *joint.found);
             const Traits known = m_bus.traits(joint.found->id); // which may know more: delays, levels

@@ -18,7 +18,7 @@ struct ProfileVariant {
 /// One joint to be looked for.
 struct ProfileTarget {
     DevicePlace place;
-    std::vector<Span> identity;           ///< where its model says who it is
+    std::vector<Span> identity; ///< where its model says who it is
     std::uint16_t firmwareAt = 6;
     std::vector<ProfileVariant> variants; ///< ascending
     std::vector<int> otherRates;          ///< where it is looked for if it is silent, but for those of other joints
@@ -26,7 +26,7 @@ struct ProfileTarget {
 
 struct ProfileReadPlan {
     std::vector<ProfileTarget> targets; ///< one per joint
-    std::vector<int> scanned;           ///< rates at which devices are looked for that no joint names; takes up to 0.8 s each
+    std::vector<int> scanned; ///< rates at which devices are looked for that no joint names; takes up to 0.8 s each
 };
 
 struct ProfileReadOptions {
@@ -34,7 +34,8 @@ struct ProfileReadOptions {
     bool readsAll = false;      ///< every register that could be in a profile, not only those that are
 };
 /// Pure.
-ProfileReadPlan planProfileReading(const Profile &profile, const Catalog &catalog, const ProfileReadOptions &options = {});
+ProfileReadPlan planProfileReading(const Profile &profile, const Catalog &catalog,
+                                   const ProfileReadOptions &options = {});
 
 /// What came of one joint.
 struct JointReading {

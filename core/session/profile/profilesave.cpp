@@ -105,8 +105,8 @@ private:
         QString text = textOfValue(table, field, raw, held, like);
         if (means(table, field, text, held) == raw)
             return text;
-        m_saved.notes << tr("%1: %2 holds %3, which is out of its range; it was left out")
-                             .arg(joint, field.name).arg(raw);
+        m_saved.notes
+            << tr("%1: %2 holds %3, which is out of its range; it was left out").arg(joint, field.name).arg(raw);
         return std::nullopt;
     }
 
@@ -262,7 +262,8 @@ private:
             const QByteArrayList own = jointLines(*device, *table, name, values, layout.step);
             for (qsizetype i = 0; i < own.size(); ++i)
                 lines << (i == 0 ? '-' + QByteArray(layout.key - layout.dash - 1, ' ')
-                                 : QByteArray(layout.key - layout.dash, ' ')) + own[i];
+                                 : QByteArray(layout.key - layout.dash, ' '))
+                             + own[i];
             words << inBrackets(*device, *table, name, values);
         }
         if (lines.isEmpty())
@@ -313,7 +314,9 @@ private:
         const QByteArrayList words = wordsOf(values);
         const QByteArray registers = words.isEmpty() ? QByteArray() : ", registers: { " + words.join(", ") + " }";
         const QString place = QStringLiteral("id: %1, baud: %2, firmware: %3")
-                                  .arg(device.found.id).arg(device.found.baudRate).arg(device.found.firmware);
+                                  .arg(device.found.id)
+                                  .arg(device.found.baudRate)
+                                  .arg(device.found.firmware);
         return "{ name: " + yamlScalar(name, YamlNode::Style::Plain, true) + ", model: "
                + yamlScalar(table.model(), YamlNode::Style::Plain, true) + ", " + place.toUtf8() + registers + " }";
     }
@@ -354,8 +357,8 @@ Result<SavedProfile> saveProfile(const QByteArray &text, const QString &file, co
     if (isNew && saved.newJoints == 0)
         return failure(ErrorKind::NotFound, tr("there is no device that a profile could be made of"));
     if (const auto again = profileFromYaml(saved.text, file, catalog); !again) {
-        return failure(ErrorKind::BadFile, tr("What would be written can't be read again, so nothing was: %1")
-                                               .arg(again.error().text));
+        return failure(ErrorKind::BadFile,
+                       tr("What would be written can't be read again, so nothing was: %1").arg(again.error().text));
     }
     return saved;
 }

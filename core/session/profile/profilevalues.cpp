@@ -15,7 +15,8 @@ bool decidesUnit(const Field &field, QStringView name)
     return isAlternate || name == field.gearRatio.numerator || name == field.gearRatio.denominator;
 }
 
-std::optional<std::int64_t> wantedOf(const ControlTable &table, const std::vector<WantedValue> &wanted, QStringView name)
+std::optional<std::int64_t> wantedOf(const ControlTable &table, const std::vector<WantedValue> &wanted,
+                                     QStringView name)
 {
     const Field *field = table.find(name);
     for (const WantedValue &each : wanted) {
@@ -119,7 +120,8 @@ std::vector<WantedValue> wantedValues(const ProfileJoint &joint, const ControlTa
     return checked;
 }
 
-RegisterLookup lookupAfter(const ControlTable &table, const std::vector<WantedValue> &wanted, const RegisterLookup &held)
+RegisterLookup lookupAfter(const ControlTable &table, const std::vector<WantedValue> &wanted,
+                           const RegisterLookup &held)
 {
     return [&table, &wanted, &held](QStringView name) -> std::optional<std::int64_t> {
         if (const auto value = wantedOf(table, wanted, name))

@@ -16,7 +16,8 @@ struct ProfileValue {
 
     friend bool operator==(const ProfileValue &, const ProfileValue &) = default;
 };
-ProfileValue profileValue(const ControlTable &table, const Field &field, std::int64_t raw, const RegisterLookup &lookup);
+ProfileValue profileValue(const ControlTable &table, const Field &field, std::int64_t raw,
+                          const RegisterLookup &lookup);
 
 /// What a register of a joint shall hold in a device of this table.
 struct WantedValue {
