@@ -99,7 +99,6 @@ void understandWords(Options &options, const Typed &typed)
                     : typed.option == "all-but-id" ? ResetOption::AllButId
                                                    : ResetOption::AllButIdAndBaud;
     options.clear = typed.option == "error" ? ClearOption::Error : ClearOption::Position;
-    options.backup = typed.option == "restore" ? BackupOption::Restore : BackupOption::Store;
     options.models = typed.models;
     options.shell = QString::fromStdString(typed.shell);
     options.model = QString::fromStdString(typed.model.value_or(std::string()));
@@ -133,6 +132,16 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
     for (const auto part : {understandLine, understandIds, understandRegisters, understandWatch}) {
         if (const Result<void> understood = part(options, typed); !understood)
             return tl::unexpected(understood.error());
+    }
+    if (options.command == Command::Backup || options.command == Command::Restore || options.command == Command::Compare) {
+        auto backup = options.command == Command::Backup    ? typed.backup.understandBackup()
+                      : options.command == Command::Restore ? typed.backup.understandRestore()
+                                                            : typed.backup.understandCompare();
+        if (!backup)
+            return tl::unexpected(backup.error());
+        options.backup = std::move(*backup);
+        options.idList = options.backup.ids;
+        options.yes = options.backup.yes;
     }
     if (options.command == Command::Sim) {
         auto sim = typed.sim.understand();
