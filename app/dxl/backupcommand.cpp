@@ -19,7 +19,8 @@ QString pathFor(const BackupOptions &options, const Backup &backup)
 {
     if (!options.file.isEmpty())
         return options.file;
-    return options.folder.isEmpty() ? suggestedFileName(backup) : QDir(options.folder).filePath(suggestedFileName(backup));
+    return options.folder.isEmpty() ? suggestedFileName(backup)
+                                    : QDir(options.folder).filePath(suggestedFileName(backup));
 }
 
 Result<void> saveOne(const Work &work, Device &device)
@@ -120,9 +121,10 @@ Result<Backup> backupDevice(const Work &work, Device &device)
 
 ExitCode inServoCommand(const Work &work, bool restore)
 {
-    const QString what = QStringLiteral("restoring the backup that %1 %2 overwrites the EEPROM, ID and baud rate with it")
-                             .arg(idsText(work.options), work.options.idList.size() == 1 ? QStringLiteral("holds")
-                                                                                        : QStringLiteral("hold"));
+    const QString what =
+        QStringLiteral("restoring the backup that %1 %2 overwrites the EEPROM, ID and baud rate with it")
+            .arg(idsText(work.options),
+                 work.options.idList.size() == 1 ? QStringLiteral("holds") : QStringLiteral("hold"));
     if (restore && !mayGoOn(work, what))
         return ExitCode::Usage;
     return forEachDevice(work, [&](Device &device) { return inServoOne(work, device, restore); });

@@ -73,17 +73,19 @@ void BackupArguments::describe(CLI::App &app)
     restore->add_flag("--torque-back", typed.torqueBack, "Then on again, with the goal where the joint is");
     restore->add_option("--only", typed.only, "These registers alone: operating_mode,homing_offset")->type_name("LIST");
     restore->add_option("--except", typed.except, "All but these registers")->type_name("LIST");
-    restore->add_option("--calibration", typed.calibration,
-                        "yes or no: also Homing Offset, which belongs to the single device (where model, firmware and ID "
-                        "are those of the backup)")
+    restore
+        ->add_option("--calibration", typed.calibration,
+                     "yes or no: also Homing Offset, which belongs to the single device (where model, firmware and ID "
+                     "are those of the backup)")
         ->type_name("WORD")
         ->check(CLI::IsMember({"yes", "no"}).description({}));
     restore->add_flag("--with-id-and-baud", typed.withIdAndBaud,
                       "At last move it to the backup's ID and baud rate, as dxl move does");
     restore->add_flag("--in-servo", typed.inServo, "From the backup that the device itself holds; no FILE");
-    restore->footer("Only what differs is written, EEPROM before RAM, each register read back; never torque on, never a "
-                    "goal. Stopped anywhere, the same once more goes on. --in-servo: "
-                    + inServoConditions().toStdString());
+    restore->footer(
+        "Only what differs is written, EEPROM before RAM, each register read back; never torque on, never a "
+        "goal. Stopped anywhere, the same once more goes on. --in-servo: "
+        + inServoConditions().toStdString());
 
     CLI::App *compare = app.add_subcommand("compare", "Compare two backups, two devices, or one with the other");
     compare->add_option("A", typed.left, "The ID of a device, or a backup's file")->required()->type_name({});

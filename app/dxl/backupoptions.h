@@ -17,7 +17,7 @@ namespace dynascope::dxl {
 
 /// One side of `dxl compare`.
 struct CompareSide {
-    int id = -1;  ///< −1: it is a file
+    int id = -1; ///< −1: it is a file
     QString file;
 };
 

@@ -122,6 +122,22 @@ Result<void> understandPacket(Options &options, const Typed &typed)
     return {};
 }
 
+Result<void> understandBackups(Options &options, const Typed &typed)
+{
+    const Command command = options.command;
+    if (command != Command::Backup && command != Command::Restore && command != Command::Compare)
+        return {};
+    auto backup = command == Command::Backup    ? typed.backup.understandBackup()
+                  : command == Command::Restore ? typed.backup.understandRestore()
+                                                : typed.backup.understandCompare();
+    if (!backup)
+        return tl::unexpected(backup.error());
+    options.backup = std::move(*backup);
+    options.idList = options.backup.ids;
+    options.yes = options.backup.yes;
+    return {};
+}
+
 Result<Options> understand(const CLI::App &app, const Typed &typed)
 {
     Options options;
@@ -133,16 +149,8 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
         if (const Result<void> understood = part(options, typed); !understood)
             return tl::unexpected(understood.error());
     }
-    if (options.command == Command::Backup || options.command == Command::Restore || options.command == Command::Compare) {
-        auto backup = options.command == Command::Backup    ? typed.backup.understandBackup()
-                      : options.command == Command::Restore ? typed.backup.understandRestore()
-                                                            : typed.backup.understandCompare();
-        if (!backup)
-            return tl::unexpected(backup.error());
-        options.backup = std::move(*backup);
-        options.idList = options.backup.ids;
-        options.yes = options.backup.yes;
-    }
+    if (const Result<void> understood = understandBackups(options, typed); !understood)
+        return tl::unexpected(understood.error());
     if (options.command == Command::Sim) {
         auto sim = typed.sim.understand();
         if (!sim)

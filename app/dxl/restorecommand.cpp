@@ -60,10 +60,12 @@ private:
             if (row.state == State::NotCarried)
                 m_work.output.note(QStringLiteral("could not be carried: %1: %2").arg(row.name, row.why));
             else if (row.state == State::Left && row.use == BackupUse::Calibration)
-                m_work.output.note(QStringLiteral("left: %1: %2; --calibration yes restores it").arg(row.name, row.why));
+                m_work.output.note(
+                    QStringLiteral("left: %1: %2; --calibration yes restores it").arg(row.name, row.why));
             else if (row.state == State::Left && row.use == BackupUse::Place && !m_options.withIdAndBaud)
-                m_work.output.note(QStringLiteral("left: %1, which is %2 in the backup; --with-id-and-baud moves the device")
-                                       .arg(row.name, row.wantedText));
+                m_work.output.note(
+                    QStringLiteral("left: %1, which is %2 in the backup; --with-id-and-baud moves the device")
+                        .arg(row.name, row.wantedText));
         }
     }
 
@@ -97,7 +99,8 @@ private:
                                                                       : fail(can.error());
         }
         const auto count = m_plan.count(State::Differs);
-        if (count > 0 && !mayGoOn(m_work, QStringLiteral("%1 registers of %2 are to be written").arg(count).arg(m_device.name())))
+        if (count > 0
+            && !mayGoOn(m_work, QStringLiteral("%1 registers of %2 are to be written").arg(count).arg(m_device.name())))
             return ExitCode::Usage;
         DirectJob job(m_work.bus);
         JournalEntry as;
@@ -108,7 +111,8 @@ private:
         if (!outcome)
             return fail(outcome.error());
         if (outcome->missing != Consent::None)
-            return m_work.output.refuse({ErrorKind::InvalidArgument, outcome->why + QStringLiteral("; --torque-off allows it")});
+            return m_work.output.refuse(
+                {ErrorKind::InvalidArgument, outcome->why + QStringLiteral("; --torque-off allows it")});
         show(&*outcome);
         if (const ExitCode code = tell(*outcome); code != ExitCode::Done)
             return code;
@@ -122,7 +126,8 @@ private:
                 m_work.output.fail({ErrorKind::NotConfirmed, result.why});
         }
         if (outcome.ended)
-            m_work.output.fail({outcome.ended->kind, outcome.ended->text + QStringLiteral("; the same once more goes on")});
+            m_work.output.fail(
+                {outcome.ended->kind, outcome.ended->text + QStringLiteral("; the same once more goes on")});
         if (outcome.torqueStaysOff())
             m_work.output.note(outcome.torqueNote.isEmpty() ? QStringLiteral("its torque was turned off and stays so")
                                                             : outcome.torqueNote);

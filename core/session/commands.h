@@ -35,6 +35,9 @@ public:
     void setLed(Device &device, bool on, Done done = {});
     void reboot(Device &device, Done done = {});
     void factoryReset(Device &device, ResetOption option, Done done = {});
+    /// Control Table Backup: the device's own. A restore restarts it; where it then has another ID or baud rate, it is
+    /// only found by a scan.
+    void controlTableBackup(Device &device, BackupOption option, Done done = {});
     void clearMultiTurn(Device &device, Done done = {});
     void ping(Device &device, Done done = {});
 

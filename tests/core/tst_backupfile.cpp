@@ -67,10 +67,10 @@ private slots:
         BackupWorld world(m_catalog, u"XM430-W350@57600:7"_s);
         world.servo().write(u"Homing Offset", -300);
         const QByteArray yaml = toYaml(*world.backup());
-        for (const char *line : {"model: XM430-W350", "model-number: 1020", "id: 7", "baud: 57600",
-                                 "date: 2026-11-28T20:30:00Z", "registers:", "readings:",
-                                 "  Operating Mode: 3                  # Position control",
-                                 "  Homing Offset: -300                # -26.37 \xC2\xB0"})
+        for (const char *line :
+             {"model: XM430-W350", "model-number: 1020", "id: 7", "baud: 57600", "date: 2026-11-28T20:30:00Z",
+              "registers:", "readings:", "  Operating Mode: 3                  # Position control",
+              "  Homing Offset: -300                # -26.37 \xC2\xB0"})
             QVERIFY2(yaml.contains(QByteArray("\n") + line + '\n'), yaml.constData());
         QVERIFY(world.packets() <= 6);
     }
@@ -124,11 +124,16 @@ private slots:
             u"f:2:8: model number 1020 is that of XM430-W350, not \"XL430-W250\""_s);
         row("another model inside", withHead("registers:\n  Model Number: 1060\n"),
             u"f:9:17: Model Number is 1060 here, but 1020 above"_s);
-        row("unknown model", withHead("registers:\n  LED: 1\n", "NX-1", 64000), u"f:9:3: no table tells the registers"_s);
-        row("firmware", "backup: 1\nmodel: XM430-W350\nmodel-number: 1020\nfirmware: 300\nid: 1\nbaud: 57600\n"
-                        "date: 2026-11-28T20:30:00Z\n", u"f:4:11: firmware is a whole number from 0 to 255"_s);
-        row("date", "backup: 1\nmodel: XM430-W350\nmodel-number: 1020\nfirmware: 45\nid: 1\nbaud: 57600\n"
-                    "date: yesterday\n", u"f:7:7: date is a time"_s);
+        row("unknown model", withHead("registers:\n  LED: 1\n", "NX-1", 64000),
+            u"f:9:3: no table tells the registers"_s);
+        row("firmware",
+            "backup: 1\nmodel: XM430-W350\nmodel-number: 1020\nfirmware: 300\nid: 1\nbaud: 57600\n"
+            "date: 2026-11-28T20:30:00Z\n",
+            u"f:4:11: firmware is a whole number from 0 to 255"_s);
+        row("date",
+            "backup: 1\nmodel: XM430-W350\nmodel-number: 1020\nfirmware: 45\nid: 1\nbaud: 57600\n"
+            "date: yesterday\n",
+            u"f:7:7: date is a time"_s);
         row("bytes", withHead("bytes:\n  70: 'zz'\n"), u"f:9:7: bytes are written as pairs"_s);
         row("half a byte", withHead("bytes:\n  70: '0'\n"), u"f:9:7: bytes are written as pairs"_s);
         row("no address", withHead("bytes:\n  LED: '00'\n"), u"f:9:3: an address is a whole number"_s);

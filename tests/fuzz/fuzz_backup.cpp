@@ -41,8 +41,8 @@ void plan(const Backup &backup, int firmware)
     found.baudRate = 57600;
     found.modelNumber = static_cast<std::uint16_t>(backup.modelNumber);
     found.firmware = static_cast<std::uint8_t>(firmware);
-    const auto restored = planRestore(backup, freshDevice(backup.modelNumber, table, firmware),
-                                      placeOf(found, *table, backup.model), {});
+    const auto restored =
+        planRestore(backup, freshDevice(backup.modelNumber, table, firmware), placeOf(found, *table, backup.model), {});
     if (!restored) {
         must(!restored.error().text.isEmpty(), "a refusal has a reason");
         return;

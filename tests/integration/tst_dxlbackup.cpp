@@ -55,7 +55,8 @@ private slots:
         m_bus->set(1, 57600, u"Position P Gain", 123);
         const Outcome differs = dxl({u"compare"_s, file, u"1"_s});
         QCOMPARE(differs.code, 1);
-        QVERIFY2(differs.out.contains(u"Position P Gain") && differs.out.contains(u"2 not") && !differs.out.contains(u"Present"),
+        QVERIFY2(differs.out.contains(u"Position P Gain") && differs.out.contains(u"2 not")
+                     && !differs.out.contains(u"Present"),
                  qPrintable(differs.out));
         m_bus->forget();
         const Outcome dry = dxl({u"restore"_s, u"1"_s, file, u"--dry-run"_s});
@@ -114,7 +115,8 @@ private slots:
         const QString other = all[2][u"file"].toString();
         const Outcome refused = dxl({u"restore"_s, u"1"_s, other, u"--yes"_s});
         QCOMPARE(refused.code, 2);
-        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"is the backup of a XL430-W250"), qPrintable(refused.err));
+        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"is the backup of a XL430-W250"),
+                 qPrintable(refused.err));
         const Outcome files = test::dxl({u"compare"_s, all[0][u"file"].toString(), other, u"--json"_s}); // no line
         QCOMPARE(files.code, 1);
         QVERIFY(objectOf(files)[u"differing"].toInt() > 2);
@@ -163,8 +165,9 @@ private:
     QString path(const char *name) const { return m_folder->filePath(QString::fromLatin1(name)); }
     int writes()
     {
-        return static_cast<int>(std::ranges::count_if(
-            m_bus->sent(), [](const Bytes &packet) { return packet[7] == static_cast<std::uint8_t>(Instruction::Write); }));
+        return static_cast<int>(std::ranges::count_if(m_bus->sent(), [](const Bytes &packet) {
+            return packet[7] == static_cast<std::uint8_t>(Instruction::Write);
+        }));
     }
 
     std::unique_ptr<DxlBus> m_bus;

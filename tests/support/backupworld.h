@@ -21,8 +21,8 @@ struct BackupWorld : SettingsWorld {
         const auto image = readForBackup(context, planBackupReading(place, servo(index).table()));
         if (!image)
             return tl::unexpected(image.error());
-        const Found found{place.id, place.baudRate, place.modelNumber,
-                          static_cast<std::uint8_t>(servo(index).firmware()), false, {}};
+        const Found found{
+            place.id, place.baudRate, place.modelNumber, static_cast<std::uint8_t>(servo(index).firmware()), false, {}};
         return backupOf(found, servo(index).model(), catalog.findOrRaw(found.modelNumber, found.firmware), *image,
                         QDateTime(QDate(2026, 11, 28), QTime(20, 30), Qt::UTC));
     }

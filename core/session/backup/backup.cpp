@@ -78,7 +78,8 @@ std::vector<BackupBytes> bytesBeside(const ControlTable &table, const RegisterIm
     const auto add = [&](int from, int to) {
         for (int begin = from; begin < to; begin += static_cast<int>(Backup::MostBytes) / 4) {
             BackupBytes one{begin, {}};
-            for (int address = begin; address < std::min(to, begin + static_cast<int>(Backup::MostBytes) / 4); ++address) {
+            for (int address = begin; address < std::min(to, begin + static_cast<int>(Backup::MostBytes) / 4);
+                 ++address) {
                 const Bytes byte = image.bytes(static_cast<std::uint16_t>(address), 1);
                 if (byte.empty())
                     break;

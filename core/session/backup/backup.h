@@ -12,7 +12,7 @@
 namespace dynascope {
 
 struct BackupRegister {
-    int field = -1;           ///< index in the backup's table
+    int field = -1; ///< index in the backup's table
     std::int64_t raw = 0;
     int line = 0, column = 0; ///< of the value in its file; 0: it was read from a device
 };
@@ -30,14 +30,14 @@ struct Backup {
     static constexpr std::size_t MostRegisters = 4096;
     static constexpr qsizetype MostBytes = 64; ///< of a line of the file
 
-    QString file;          ///< for messages; empty: it was read from a device
+    QString file; ///< for messages; empty: it was read from a device
     int modelNumber = 0;
-    QString model;         ///< "XM430-W350"
+    QString model; ///< "XM430-W350"
     int firmware = 0;
-    int id = 0;            ///< where it stood then
-    int baudRate = 0;      ///< bits per second
-    QDateTime at;          ///< UTC
-    ControlTablePtr table; ///< of this model and firmware; of an unknown model one of bare bytes
+    int id = 0;                            ///< where it stood then
+    int baudRate = 0;                      ///< bits per second
+    QDateTime at;                          ///< UTC
+    ControlTablePtr table;                 ///< of this model and firmware; of an unknown model one of bare bytes
     std::vector<BackupRegister> registers; ///< by field
     std::vector<BackupBytes> bytes;        ///< by address
     QStringList unread;                    ///< registers that the device refused to show
@@ -45,10 +45,13 @@ struct Backup {
     bool isKnownModel() const { return table && !table->description().isRaw; }
     const BackupRegister *find(const Field *field) const;
     const BackupRegister *find(QStringView name) const;
-    const Field &fieldOf(const BackupRegister &one) const { return table->fields()[static_cast<std::size_t>(one.field)]; }
-    RegisterLookup lookup() const; ///< while this lives
+    const Field &fieldOf(const BackupRegister &one) const
+    {
+        return table->fields()[static_cast<std::size_t>(one.field)];
+    }
+    RegisterLookup lookup() const;                 ///< while this lives
     QString text(const BackupRegister &one) const; ///< "180.00 °"; the raw number where there is nothing better
-    QString name() const; ///< "XM430-W350 (ID 1)"
+    QString name() const;                          ///< "XM430-W350 (ID 1)"
 };
 
 /// @name From a device
@@ -74,7 +77,7 @@ QByteArray toYaml(const Backup &backup);
 Result<Backup> backupFromYaml(const QByteArray &yaml, const QString &name, const Catalog &catalog);
 Result<Backup> loadBackup(const QString &path, const Catalog &catalog); ///< NotFound, BadFile
 Result<void> saveBackup(const QString &path, const Backup &backup);     ///< at once or not at all
-QString suggestedFileName(const Backup &backup); ///< "XM430-W350-id001-20261128-203000.yaml"
+QString suggestedFileName(const Backup &backup);                        ///< "XM430-W350-id001-20261128-203000.yaml"
 /// @}
 
 } // namespace dynascope

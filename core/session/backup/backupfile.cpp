@@ -65,7 +65,8 @@ QByteArray toYaml(const Backup &backup)
     if (!backup.bytes.empty())
         yaml += "# Bytes that no register is known for, by address:\nbytes:\n";
     for (const BackupBytes &one : backup.bytes) {
-        const QByteArray raw(reinterpret_cast<const char *>(one.bytes.data()), static_cast<qsizetype>(one.bytes.size()));
+        const QByteArray raw(reinterpret_cast<const char *>(one.bytes.data()),
+                             static_cast<qsizetype>(one.bytes.size()));
         yaml += "  " + QByteArray::number(one.address) + ": '" + raw.toHex(' ') + "'\n";
     }
     return yaml;

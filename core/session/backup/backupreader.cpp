@@ -131,9 +131,11 @@ private:
         if (!number || !m_faults.isEmpty())
             return;
         const auto isCalled = [&](const QString &name) { return normalizedName(name) == normalizedName(node.text); };
-        if (node.kind != YamlNode::Kind::Scalar || (model && !isCalled(model->model) && std::ranges::none_of(model->alsoCalled, isCalled)))
+        if (node.kind != YamlNode::Kind::Scalar
+            || (model && !isCalled(model->model) && std::ranges::none_of(model->alsoCalled, isCalled)))
             return say(node, tr("model number %1 is that of %2, not \"%3\"")
-                                 .arg(m_backup.modelNumber).arg(m_backup.model, cut(node.text)));
+                                 .arg(m_backup.modelNumber)
+                                 .arg(m_backup.model, cut(node.text)));
         m_backup.table = m_catalog.findOrRaw(m_backup.modelNumber, m_backup.firmware);
     }
 
@@ -157,7 +159,9 @@ private:
         if (!field) {
             const QStringList near = namesNear(*m_backup.table, name.text);
             const QString what = tr("%1 with firmware %2 has no register \"%3\"")
-                                     .arg(m_backup.model).arg(m_backup.firmware).arg(cut(name.text));
+                                     .arg(m_backup.model)
+                                     .arg(m_backup.firmware)
+                                     .arg(cut(name.text));
             return say(name, near.isEmpty() ? what : what + tr("; nearest: %1").arg(near.join(u", ")));
         }
         const int index = m_backup.table->indexOf(field);
@@ -182,7 +186,8 @@ private:
             const bool isHex = value.kind == YamlNode::Kind::Scalar && !bytes.isEmpty()
                                && bytes.size() <= Backup::MostBytes && bytes.toHex() == text.toLower();
             if (!isHex)
-                say(value, tr("bytes are written as pairs of hexadecimal digits, up to %1 of them").arg(Backup::MostBytes));
+                say(value,
+                    tr("bytes are written as pairs of hexadecimal digits, up to %1 of them").arg(Backup::MostBytes));
             else if (address)
                 m_backup.bytes.push_back({static_cast<int>(*address), Bytes(bytes.begin(), bytes.end())});
         }

@@ -29,13 +29,14 @@ ComparedRegister oneSided(const Backup &backup, const BackupRegister &one, bool 
     return row;
 }
 
-ComparedRegister bothSided(const Backup &here, const BackupRegister &one, const Backup &there, const BackupRegister &other)
+ComparedRegister bothSided(const Backup &here, const BackupRegister &one, const Backup &there,
+                           const BackupRegister &other)
 {
     ComparedRegister row = oneSided(here, one, true);
     row.there = other.raw;
     row.thereText = there.text(other);
     row.why = otherMeaning(*here.table, here.fieldOf(one), *there.table, there.fieldOf(other), one.raw, here.lookup());
-    row.state = !row.why.isEmpty()      ? ComparedRegister::State::OtherMeaning
+    row.state = !row.why.isEmpty()     ? ComparedRegister::State::OtherMeaning
                 : one.raw == other.raw ? ComparedRegister::State::Same
                                        : ComparedRegister::State::Differs;
     return row;

@@ -71,9 +71,9 @@ private:
     Result<void> checkWhole() const
     {
         if (m_backup.modelNumber != m_now.modelNumber) {
-            return refuse(tr("%1 is the backup of a %2, and %3 is none")
-                              .arg(m_backup.file.isEmpty() ? m_backup.name() : m_backup.file, m_backup.model,
-                                   m_now.name()));
+            return refuse(
+                tr("%1 is the backup of a %2, and %3 is none")
+                    .arg(m_backup.file.isEmpty() ? m_backup.name() : m_backup.file, m_backup.model, m_now.name()));
         }
         if (!m_now.isKnownModel() || !m_backup.isKnownModel())
             return refuse(tr("%1: the registers of this model are not known").arg(m_now.name()));
@@ -107,12 +107,14 @@ private:
             row.state = row.now == row.wanted ? RestoreRow::State::Same : RestoreRow::State::Left;
             row.field = -1; // not to be written, whatever it holds
         } else {
-            row.why = own ? whyNotCarried(row, field, *own) : tr("firmware %1 has no such register").arg(m_now.firmware);
-            row.state = !row.why.isEmpty()       ? RestoreRow::State::NotCarried
+            row.why =
+                own ? whyNotCarried(row, field, *own) : tr("firmware %1 has no such register").arg(m_now.firmware);
+            row.state = !row.why.isEmpty()      ? RestoreRow::State::NotCarried
                         : row.now == row.wanted ? RestoreRow::State::Same
                                                 : RestoreRow::State::Differs;
-            const bool isOdd = row.state == RestoreRow::State::Same
-                               && !settingProblem(*m_now.table, m_place, {row.field, row.wanted}, m_options.settings).isEmpty();
+            const bool isOdd =
+                row.state == RestoreRow::State::Same
+                && !settingProblem(*m_now.table, m_place, {row.field, row.wanted}, m_options.settings).isEmpty();
             if (isOdd) // it may stay so, but nobody would write it
                 row.field = -1;
         }
@@ -147,7 +149,8 @@ private:
             return other;
         if (row.now == row.wanted)
             return {};
-        const bool isNamed = to.values.empty() || std::ranges::find(to.values, row.wanted, &EnumValue::value) != to.values.end();
+        const bool isNamed =
+            to.values.empty() || std::ranges::find(to.values, row.wanted, &EnumValue::value) != to.values.end();
         if (!isSameFirmware() || isNamed) // else it is wrong in the file, and checkRanges() says where
             return settingProblem(*m_now.table, m_place, {row.field, row.wanted}, m_options.settings);
         return {};
@@ -173,7 +176,8 @@ private:
             if (!isCarried(row))
                 continue;
             const Field &field = m_now.table->fields()[static_cast<std::size_t>(row.field)];
-            const auto inRange = checkRange(field, effective(field, afterwards()), row.wanted, m_now.table->resolution());
+            const auto inRange =
+                checkRange(field, effective(field, afterwards()), row.wanted, m_now.table->resolution());
             if (inRange)
                 continue;
             if (row.state == RestoreRow::State::Same) { // the device itself has it so
@@ -235,9 +239,12 @@ QString inServoProblem(const ControlTable &table, int firmware, bool restore, st
         return {}; // let it say so itself
     if (!table.hasBackup(firmware)) {
         const int from = table.description().backupFrom;
-        return from < 0 ? tr("this model has no backup of its own (Control Table Backup); a backup to a file does it, too")
-                        : tr("its firmware %1 has no backup of its own (Control Table Backup), which came with "
-                             "firmware %2; a backup to a file does it, too").arg(firmware).arg(from);
+        return from < 0
+                   ? tr("this model has no backup of its own (Control Table Backup); a backup to a file does it, too")
+                   : tr("its firmware %1 has no backup of its own (Control Table Backup), which came with "
+                        "firmware %2; a backup to a file does it, too")
+                         .arg(firmware)
+                         .arg(from);
     }
     if (torque.value_or(0) != 0)
         return tr("its torque is on, and it makes and restores a backup of its own only with torque off");

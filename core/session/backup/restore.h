@@ -33,8 +33,8 @@ struct RestoreRow {
 struct RestorePlan {
     std::vector<RestoreRow> rows; ///< of each register that the file has and that may be written, in its order
     std::vector<WantedSetting> wanted;
-    SettingsPlan settings;        ///< of all that is carried, also of what is the same: a write may reset it
-    bool isSameDevice = false;    ///< by model, firmware, ID: as far as that can be told
+    SettingsPlan settings;     ///< of all that is carried, also of what is the same: a write may reset it
+    bool isSameDevice = false; ///< by model, firmware, ID: as far as that can be told
 
     std::size_t count(RestoreRow::State state) const;
     bool writesNothing() const { return count(RestoreRow::State::Differs) == 0; }
