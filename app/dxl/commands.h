@@ -26,6 +26,7 @@ struct Work {
 /// @{
 ExitCode backupCommand(const Work &work);
 ExitCode clearCommand(const Work &work);
+ExitCode compareCommand(const Work &work);
 ExitCode infoCommand(const Work &work);
 ExitCode moveCommand(const Work &work);
 ExitCode packetCommand(const Work &work);
@@ -35,6 +36,7 @@ ExitCode profileSaveCommand(const Work &work); ///< the part of it that writes t
 ExitCode readCommand(const Work &work);
 ExitCode rebootCommand(const Work &work);
 ExitCode resetCommand(const Work &work);
+ExitCode restoreCommand(const Work &work);
 ExitCode scanCommand(const Work &work);
 ExitCode statsCommand(const Work &work);
 ExitCode stopCommand(const Work &work);
@@ -44,9 +46,13 @@ ExitCode watchCommand(const Work &work);
 ExitCode writeCommand(const Work &work);
 /// @}
 
+/// Could the moves of its options be carried out? Everything is looked at, nothing written.
+Result<void> checkMove(const Work &work);
 /// Where a plan of moves on this line is kept.
 MoveFile moveFileOf(const Options &options);
 
+/// Of two files, without a line.
+ExitCode compareFilesCommand(const Catalog &catalog, const Options &options, Output &output);
 ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output);
 ExitCode journalCommand(const Catalog &catalog, Options options, Output &output);
 ExitCode portsCommand(Output &output);

@@ -37,8 +37,6 @@ QStringList wordsBehind(const QString &command)
         return split(u"all all-but-id all-but-id-and-baud");
     if (command == u"clear")
         return split(u"position error");
-    if (command == u"backup")
-        return split(u"store restore");
     if (command == u"completion")
         return split(u"bash zsh fish");
     if (command == u"models")
@@ -61,8 +59,7 @@ Words wordsOf(const CLI::App &app)
     words.name = QString::fromStdString(app.get_name());
     words.help = inShort(app.get_description());
     words.words = wordsBehind(words.name);
-    words.takesFiles = words.name == u"sim" || words.name == u"models"
-                       || words.name == u"profile"; // ctl PATH, check FILE
+    words.takesFiles = split(u"sim models profile backup restore compare").contains(words.name); // ctl PATH, check FILE
     for (const CLI::Option *option : app.get_options()) {
         for (const std::string &name : option->get_lnames()) {
             words.options << QStringLiteral("--") + QString::fromStdString(name);
@@ -104,7 +101,7 @@ ValuedOption valued(const QString &name, const Catalog &catalog, const QStringLi
     const QStringList rates = split(u"9600 57600 115200 1000000 2000000 3000000 4000000 4500000");
     if (name == u"--port")
         return {name, split(u"sim tcp:// rfc2217://"), true};
-    if (name == u"--link" || name == u"--bus")
+    if (name == u"--link" || name == u"--bus" || name == u"--folder")
         return {name, {}, true};
     if (name == u"--baud")
         return {name, rates};
@@ -114,7 +111,9 @@ ValuedOption valued(const QString &name, const Catalog &catalog, const QStringLi
         return {name, split(u"max")};
     if (name == u"--control")
         return {name, split(u"-")};
-    if (name == u"--watch")
+    if (name == u"--calibration")
+        return {name, split(u"yes no")};
+    if (name == u"--watch" || name == u"--only" || name == u"--except")
         return {name, fields};
     if (name != u"--model")
         return {name, {}};

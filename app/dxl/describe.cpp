@@ -16,12 +16,13 @@ struct Name {
 };
 
 constexpr std::array Names{
-    Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"completion", Command::Completion},
+    Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"compare", Command::Compare},
+    Name{"completion", Command::Completion},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
     Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
     Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"profile", Command::Profile},
-    Name{"read", Command::Read},
-    Name{"reboot", Command::Reboot}, Name{"reset", Command::Reset},   Name{"scan", Command::Scan},
+    Name{"read", Command::Read},     Name{"reboot", Command::Reboot}, Name{"reset", Command::Reset},
+    Name{"restore", Command::Restore}, Name{"scan", Command::Scan},
     Name{"sim", Command::Sim},       Name{"stats", Command::Stats},   Name{"stop", Command::Stop},
     Name{"table", Command::Table},   Name{"torque", Command::Torque}, Name{"version", Command::Version},
     Name{"watch", Command::Watch},   Name{"write", Command::Write},

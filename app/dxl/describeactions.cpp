@@ -60,11 +60,7 @@ void describeActions(CLI::App &app, Typed &typed)
             "position (of several turns), or error (Y series only)");
     addIds(*clear, typed);
 
-    CLI::App *backup = app.add_subcommand("backup", "Store the control table in the device, or restore it from there");
-    addWord(*backup, "WHAT", typed.option, {"store", "restore"}, "store or restore; a restore overwrites the EEPROM");
-    addIds(*backup, typed);
-    addYes(*backup, typed);
-    backup->footer("Torque must be off.");
+    typed.backup.describe(app);
     describeStop(app, typed);
 }
 

@@ -19,6 +19,7 @@ ExitCode performOnLine(const Work &work)
     switch (work.options.command) {
     case Command::Backup: return backupCommand(work);
     case Command::Clear: return clearCommand(work);
+    case Command::Compare: return compareCommand(work);
     case Command::Info: return infoCommand(work);
     case Command::Move: return moveCommand(work);
     case Command::Packet: return packetCommand(work);
@@ -27,6 +28,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Read: return readCommand(work);
     case Command::Reboot: return rebootCommand(work);
     case Command::Reset: return resetCommand(work);
+    case Command::Restore: return restoreCommand(work);
     case Command::Scan: return scanCommand(work);
     case Command::Stats: return statsCommand(work);
     case Command::Stop: return stopCommand(work);
@@ -57,6 +59,7 @@ bool isJournalled(const Options &options)
     case Command::Profile:
     case Command::Reboot:
     case Command::Reset:
+    case Command::Restore:
     case Command::Stop:
     case Command::Torque:
     case Command::Write: return options.port != QLatin1String("sim");
@@ -101,6 +104,8 @@ ExitCode perform(const Options &options, Output &output)
         if (!checks)
             output.note(refused.text);
     }
+    if (options.command == Command::Compare && options.idList.empty())
+        return compareFilesCommand(*catalog, options, output);
     switch (options.command) {
     case Command::Completion: return completionCommand(*catalog, options, output);
     case Command::Journal: return journalCommand(*catalog, options, output);

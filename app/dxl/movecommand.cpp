@@ -211,6 +211,20 @@ ExitCode moveCommand(const Work &work)
     return perform(work, std::move(*plan), file);
 }
 
+Result<void> checkMove(const Work &work)
+{
+    if (moveFileOf(work.options).exists()) {
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("moves on this line were left half done: dxl move --resume goes on with them, "
+                                      "--forget leaves it so; nothing was written"));
+    }
+    auto plan = makePlan(work);
+    if (!plan)
+        return tl::unexpected(plan.error());
+    DirectJob job(work.bus);
+    return checkMoves(job, *plan);
+}
+
 MoveFile moveFileOf(const Options &options)
 {
     return dynascope::moveFileOf(options.port, MoveFile::usualFolder());

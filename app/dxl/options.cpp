@@ -99,7 +99,6 @@ void understandWords(Options &options, const Typed &typed)
                     : typed.option == "all-but-id" ? ResetOption::AllButId
                                                    : ResetOption::AllButIdAndBaud;
     options.clear = typed.option == "error" ? ClearOption::Error : ClearOption::Position;
-    options.backup = typed.option == "restore" ? BackupOption::Restore : BackupOption::Store;
     options.models = typed.models;
     options.shell = QString::fromStdString(typed.shell);
     options.model = QString::fromStdString(typed.model.value_or(std::string()));
@@ -126,6 +125,22 @@ Result<void> understandPacket(Options &options, const Typed &typed)
     return {};
 }
 
+Result<void> understandBackups(Options &options, const Typed &typed)
+{
+    const Command command = options.command;
+    if (command != Command::Backup && command != Command::Restore && command != Command::Compare)
+        return {};
+    auto backup = command == Command::Backup    ? typed.backup.understandBackup()
+                  : command == Command::Restore ? typed.backup.understandRestore()
+                                                : typed.backup.understandCompare();
+    if (!backup)
+        return tl::unexpected(backup.error());
+    options.backup = std::move(*backup);
+    options.idList = options.backup.ids;
+    options.yes = options.backup.yes;
+    return {};
+}
+
 Result<Options> understand(const CLI::App &app, const Typed &typed)
 {
     Options options;
@@ -137,6 +152,8 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
         if (const Result<void> understood = part(options, typed); !understood)
             return tl::unexpected(understood.error());
     }
+    if (const Result<void> understood = understandBackups(options, typed); !understood)
+        return tl::unexpected(understood.error());
     if (options.command == Command::Sim) {
         auto sim = typed.sim.understand();
         if (!sim)

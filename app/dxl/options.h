@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/backupoptions.h"
 #include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/moveoptions.h"
@@ -26,6 +27,7 @@ enum class ExitCode {
 enum class Command {
     Backup,
     Clear,
+    Compare,
     Completion,
     Info,
     Journal,
@@ -39,6 +41,7 @@ enum class Command {
     Read,
     Reboot,
     Reset,
+    Restore,
     Scan,
     Sim,
     Stats,
@@ -81,16 +84,16 @@ struct Options {
     bool csv = false;         ///< watch
     // torque, led
     bool on = false;
-    // reset, clear, backup
+    // reset, clear
     ResetOption reset = ResetOption::AllButIdAndBaud;
     ClearOption clear = ClearOption::Position;
-    BackupOption backup = BackupOption::Store;
     bool yes = false; ///< was asked and agreed
     // packet
     Bytes packet;              ///< as it goes out
     std::optional<int> listen; ///< ms
     // completion
     QString shell;
+    BackupOptions backup; ///< backup, restore, compare
     ModelsArguments models;
     SimOptions sim;
     JournalOptions journal;

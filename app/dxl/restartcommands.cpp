@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reboot, Factory Reset, Clear and Control Table Backup: a device is away for a while, or stands elsewhere afterwards.
+// Reboot, Factory Reset and Clear: a device is away for a while, or stands elsewhere afterwards.
 #include "app/dxl/commands.h"
 #include "app/dxl/directjob.h"
 #include "app/dxl/noting.h"
+#include "app/dxl/restarting.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
 #include "app/dxl/terminal.h"
@@ -22,63 +23,6 @@ constexpr LineTime LongestBoot = 4s; ///< some take up to 3 s
 QString durationText(LineTime duration)
 {
     return QStringLiteral("%1 s").arg(std::chrono::duration<double>(duration).count(), 0, 'f', 2);
-}
-
-/// Where the device is, once it is back from a restart; `took` is how long that was.
-Result<Found> awaitReturn(Bus &bus, const DevicePlace &from, const DevicePlace &to, LineTime &took)
-{
-    DirectJob job(bus);
-    const LineTime begin = bus.line().now();
-    if (const auto waited = bus.wait(FirstLook); !waited)
-        return tl::unexpected(waited.error());
-    while (true) {
-        // Until it had time to boot, who answers at the old place has not begun to.
-        const bool early = bus.line().now() - begin < LongestBoot / 2;
-        auto found = lookForMoved(job, early ? to : from, to);
-        took = bus.line().now() - begin;
-        if (found || endsAll(found.error()) || took > LongestBoot)
-            return found;
-        if (const auto waited = bus.wait(NextLook); !waited)
-            return tl::unexpected(waited.error());
-    }
-}
-
-DevicePlace placeOf(const Device &device)
-{
-    if (device.table())
-        return dynascope::placeOf(device.found(), *device.table(), device.name());
-    DevicePlace place;
-    place.id = device.id();
-    place.baudRate = device.found().baudRate;
-    place.modelNumber = device.found().modelNumber;
-    place.name = device.name();
-    return place;
-}
-
-/// The program may be started where nobody can be asked.
-bool mayGoOn(const Work &work, const QString &what)
-{
-    if (work.options.yes)
-        return true;
-    if (!isTerminal(stdin)) {
-        work.output.refuse(
-            {ErrorKind::InvalidArgument,
-             QStringLiteral("%1; say --yes, since nobody can be asked here; nothing was sent").arg(what)});
-        return false;
-    }
-    if (answersYes(QStringLiteral("%1. Type yes to go on:").arg(what)))
-        return true;
-    work.output.note(QStringLiteral("nothing was sent"));
-    return false;
-}
-
-QString idsText(const Options &options)
-{
-    QStringList texts;
-    for (const std::uint8_t id : options.idList)
-        texts << QString::number(id);
-    return (texts.size() == 1 ? QStringLiteral("device ") : QStringLiteral("devices "))
-           + texts.join(QStringLiteral(", "));
 }
 
 QString resetName(ResetOption option)
@@ -241,35 +185,62 @@ Result<void> clearOne(const Work &work, Device &device)
     return {};
 }
 
-Result<void> backupOne(const Work &work, Device &device)
+} // namespace
+
+Result<Found> awaitReturn(Bus &bus, const DevicePlace &from, const DevicePlace &to, LineTime &took)
 {
-    const bool restore = work.options.backup == BackupOption::Restore;
-    if (device.table() && !device.table()->hasBackup(device.found().firmware)) {
-        return failure(ErrorKind::NotSupported, QStringLiteral("%1: its firmware %2 knows no backup; nothing was sent")
-                                                    .arg(device.name())
-                                                    .arg(device.found().firmware));
+    DirectJob job(bus);
+    const LineTime begin = bus.line().now();
+    if (const auto waited = bus.wait(FirstLook); !waited)
+        return tl::unexpected(waited.error());
+    while (true) {
+        // Until it had time to boot, who answers at the old place has not begun to.
+        const bool early = bus.line().now() - begin < LongestBoot / 2;
+        auto found = lookForMoved(job, early ? to : from, to);
+        took = bus.line().now() - begin;
+        if (found || endsAll(found.error()) || took > LongestBoot)
+            return found;
+        if (const auto waited = bus.wait(NextLook); !waited)
+            return tl::unexpected(waited.error());
     }
-    JournalNote note = noteEvent(work, device, restore ? JournalKind::Restore : JournalKind::Backup);
-    const auto done = backup(work.bus, device.id(), work.options.backup);
-    finish(note, done);
-    if (!done && (!restore || !mayHaveArrived(done.error())))
-        return done;
-    if (restore) {
-        const DevicePlace place = placeOf(device);
-        LineTime took{};
-        if (const auto found = awaitReturn(work.bus, place, place, took); !found) {
-            return failure(found.error().kind,
-                           found.error().text + QStringLiteral(": the backup may hold another ID or baud rate"));
-        }
-    }
-    const QString what = restore ? QStringLiteral("restored") : QStringLiteral("stored");
-    Document document;
-    document.add("id", qint64(device.id())).add("backup", what);
-    work.output.result(QStringLiteral("%1: control table %2").arg(device.name(), what), document);
-    return {};
 }
 
-} // namespace
+DevicePlace placeOf(const Device &device)
+{
+    if (device.table())
+        return dynascope::placeOf(device.found(), *device.table(), device.name());
+    DevicePlace place;
+    place.id = device.id();
+    place.baudRate = device.found().baudRate;
+    place.modelNumber = device.found().modelNumber;
+    place.name = device.name();
+    return place;
+}
+
+bool mayGoOn(const Work &work, const QString &what)
+{
+    if (work.options.yes)
+        return true;
+    if (!isTerminal(stdin)) {
+        work.output.refuse(
+            {ErrorKind::InvalidArgument,
+             QStringLiteral("%1; say --yes, since nobody can be asked here; nothing was sent").arg(what)});
+        return false;
+    }
+    if (answersYes(QStringLiteral("%1. Type yes to go on:").arg(what)))
+        return true;
+    work.output.note(QStringLiteral("nothing was sent"));
+    return false;
+}
+
+QString idsText(const Options &options)
+{
+    QStringList texts;
+    for (const std::uint8_t id : options.idList)
+        texts << QString::number(id);
+    return (texts.size() == 1 ? QStringLiteral("device ") : QStringLiteral("devices "))
+           + texts.join(QStringLiteral(", "));
+}
 
 ExitCode rebootCommand(const Work &work)
 {
@@ -290,15 +261,6 @@ ExitCode resetCommand(const Work &work)
 ExitCode clearCommand(const Work &work)
 {
     return forEachDevice(work, [&](Device &device) { return clearOne(work, device); });
-}
-
-ExitCode backupCommand(const Work &work)
-{
-    const bool restore = work.options.backup == BackupOption::Restore;
-    const QString what = QStringLiteral("restoring the backup of %1 overwrites the EEPROM").arg(idsText(work.options));
-    if (restore && !mayGoOn(work, what))
-        return ExitCode::Usage;
-    return forEachDevice(work, [&](Device &device) { return backupOne(work, device); });
 }
 
 } // namespace dynascope::dxl

@@ -28,6 +28,7 @@ struct Typed {
     bool raw = false;
     bool explain = false, safely = false, torqueBack = false;
     std::vector<std::string> registers, words;
+    BackupArguments backup;
     SimArguments sim;
     ModelsArguments models;
     JournalArguments journal;
@@ -43,7 +44,7 @@ void describe(CLI::App &app, Typed &typed);
 /// @{
 void describeFinding(CLI::App &app, Typed &typed);   ///< ports, scan, ping, info
 void describeRegisters(CLI::App &app, Typed &typed); ///< table, read, write, watch, stats
-void describeActions(CLI::App &app, Typed &typed);   ///< torque, led, reboot, reset, clear, backup, stop
+void describeActions(CLI::App &app, Typed &typed);   ///< torque, led, reboot, reset, clear, stop
 void describePacket(CLI::App &app, Typed &typed);
 void describeModels(CLI::App &app, ModelsArguments &typed);
 void addIds(CLI::App &command, Typed &typed); ///< the devices, as a positional argument

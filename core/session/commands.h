@@ -39,6 +39,9 @@ public:
     /// One after the other, each found again before the next; refused before the first where two would end at one place.
     /// The outcome is the first failure; the others are reset nevertheless, unless STOP or the line ended it.
     void factoryReset(const std::vector<Device *> &devices, ResetOption option, Done done = {});
+    /// Control Table Backup: the device's own. A restore restarts it; where it then has another ID or baud rate, it is
+    /// only found by a scan.
+    void controlTableBackup(Device &device, BackupOption option, Done done = {});
     void clearMultiTurn(Device &device, Done done = {});
     void ping(Device &device, Done done = {});
 

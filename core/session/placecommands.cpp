@@ -71,6 +71,32 @@ void Commands::reboot(Device &device, Done done)
     runAt(device, [id = device.id()](Bus &bus) { return dynascope::reboot(bus, id); }, sent);
 }
 
+void Commands::controlTableBackup(Device &device, BackupOption option, Done done)
+{
+    const bool restore = option == BackupOption::Restore;
+    if (m_stopped && restore) // Startup Configuration may turn torque on
+        return refuse(&device, {ErrorKind::Stopped, tr("STOP is held: release it before anything restarts")}, done);
+    const DevicePlace place = placeOf(device);
+    const QString success = restore ? tr("%1 has restored its own backup and restarted")
+                                    : tr("%1 has stored a backup of its own");
+    auto report = reporting(device, success.arg(place.name), std::move(done));
+    auto sent = [this, key = device.key(), place, report, restore,
+                 note = noteEvent(device, restore ? JournalKind::Restore : JournalKind::Backup)](
+                    const Result<void> &result) mutable {
+        result ? note.done() : note.failed(result.error());
+        Device *present = m_session.device(key);
+        if (!result && (!restore || !mayHaveArrived(result.error())))
+            return report(result);
+        if (!present)
+            return report({});
+        if (!restore)
+            return readAll(*present, report);
+        present->setState(Device::State::Rebooting);
+        awaitReturn(key, place, place, ReturnAttempts, report);
+    };
+    runAt(device, [id = device.id(), option](Bus &bus) { return dynascope::backup(bus, id, option); }, sent);
+}
+
 /// After a boot. Where the device should be elsewhere then, the old place is looked at from the second time on: by then
 /// who answers there has ignored what was asked of it.
 void Commands::awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done)

@@ -1,5 +1,11 @@
 target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
+    session/backup/backup.cpp session/backup/backup.h
+    session/backup/backupcommands.cpp session/backup/backupcommands.h
+    session/backup/backupfile.cpp
+    session/backup/backupreader.cpp
+    session/backup/comparebackups.cpp session/backup/comparebackups.h
+    session/backup/restore.cpp session/backup/restore.h
     session/commands.cpp session/commands.h
     session/consequences.cpp session/consequences.h
     session/device.cpp session/device.h

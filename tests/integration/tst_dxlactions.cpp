@@ -166,7 +166,7 @@ private slots:
         m_bus->set(2, 57600, u"Torque Enable", 1);
         const Outcome refused = m_bus->dxl(u"backup store 2");
         QCOMPARE(refused.code, 1);
-        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"Result Fail"), qPrintable(refused.err));
+        QVERIFY2(isOneSentence(refused.err) && refused.err.contains(u"torque is on"), qPrintable(refused.err));
     }
 
     void stops_data()

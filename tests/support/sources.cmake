@@ -14,6 +14,7 @@ target_sources(dynascope_test_support PRIVATE
     support/sanitized.h
     support/tablefacts.cpp support/tablefacts.h
     support/servobench.h
+    support/backupworld.h
     support/settingsworld.h
     support/sessionfixture.h
     support/simclient.h

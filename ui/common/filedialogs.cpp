@@ -72,4 +72,19 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
     present(*dialog, suffix);
 }
 
+void askWhichToOpen(QWidget *parent, const QString &title, const QString &suffix,
+                    std::function<void(const QString &path)> open)
+{
+    const QString name = QStringLiteral("openDialog");
+    if (raiseOpen(*parent, name, title))
+        return;
+    auto *dialog = new QFileDialog(parent, title);
+    dialog->setObjectName(name);
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (*.%2)").arg(suffix.toUpper(), suffix));
+    QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
+    present(*dialog, title);
+}
+
 } // namespace dynascope

@@ -15,4 +15,8 @@ namespace dynascope {
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
                     std::function<void(const QString &path)> save);
 
+/// Asks which file to open; `open` gets the path of one that is there. As above.
+void askWhichToOpen(QWidget *parent, const QString &title, const QString &suffix,
+                    std::function<void(const QString &path)> open);
+
 } // namespace dynascope

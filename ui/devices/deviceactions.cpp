@@ -25,6 +25,7 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     : QObject(window)
     , m_workbench(workbench)
     , m_window(window)
+    , m_backups(new BackupActions(workbench, window))
 {
     const auto key = [](const char *text) { return QString::fromLatin1(text); };
     m_identify = add(key("identify"), key("led"), tr("Identify (LED)"), key("Ctrl+I"),
@@ -60,6 +61,7 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     m_forget = add(key("forget"), key("trash"), tr("Remove from the list"), key("Del"),
                    tr("Only here; the next scan finds it again if it answers"), &DeviceActions::forget);
     m_identify->setIconText(tr("Identify"));
+    connect(m_backups, &BackupActions::posted, this, &DeviceActions::posted);
     update();
 }
 
@@ -81,8 +83,12 @@ QAction *DeviceActions::add(const QString &name, const QString &iconName, const 
 
 std::vector<QAction *> DeviceActions::menuActions() const
 {
-    return {m_identify, m_torqueOn,   m_torqueOff,  nullptr, m_readAll,        m_reboot,     nullptr,        m_rename,
-            m_changeId, m_changeBaud, m_moveMany,   m_workAtBaud, nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget};
+    std::vector<QAction *> actions{m_identify, m_torqueOn, m_torqueOff,  nullptr,      m_readAll, m_reboot, nullptr,
+                                   m_rename, m_changeId, m_changeBaud, m_moveMany, m_workAtBaud, nullptr};
+    for (QAction *action : m_backups->actions())
+        actions.push_back(action);
+    actions.insert(actions.end(), {nullptr, m_clearMultiTurn, m_saveHybrid, m_factoryReset, m_forget});
+    return actions;
 }
 
 void DeviceActions::setSelection(const std::vector<Device *> &devices, LineSession *line, int baudRate)
@@ -154,6 +160,7 @@ void DeviceActions::update()
         return device->isKnownModel() && device->line() == devices.front()->line();
     }));
     m_forget->setEnabled(!this->devices().empty());
+    m_backups->setDevice(one);
 }
 
 QString DeviceActions::subjectOf(const std::vector<Device *> &devices)

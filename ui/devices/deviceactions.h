@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/session.h"
+#include "ui/backup/backupactions.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
 
@@ -71,6 +72,7 @@ private:
 
     Workbench m_workbench;
     QWidget *m_window;
+    BackupActions *m_backups;
     std::vector<DeviceKey> m_selected;
     std::set<DeviceKey> m_reading; ///< all of it is being read: one job each, however often it is asked for
     QPointer<LineSession> m_line;

@@ -49,8 +49,8 @@ QString commandOf(const JournalEntry &entry)
     case JournalKind::Reboot: return begin + QStringLiteral("reboot ") + id;
     case JournalKind::FactoryReset: return begin + QStringLiteral("reset %1 %2").arg(quoted(entry.note), id);
     case JournalKind::Clear: return begin + QStringLiteral("clear %1 %2").arg(quoted(entry.note), id);
-    case JournalKind::Backup: return begin + QStringLiteral("backup store ") + id;
-    case JournalKind::Restore: return begin + QStringLiteral("backup restore ") + id;
+    case JournalKind::Backup: return begin + QStringLiteral("backup --in-servo ") + id;
+    case JournalKind::Restore: return begin + QStringLiteral("restore --in-servo ") + id;
     case JournalKind::Packet: return begin + QStringLiteral("packet --hex ") + quoted(entry.note);
     }
     return {};

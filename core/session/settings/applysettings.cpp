@@ -287,6 +287,8 @@ private:
             result.after = m_image.bytes(m_plan.steps[i].where);
             if (!isOver(i) && differs(i))
                 setFailed(i, tr("%1 did not stay at what was written").arg(m_plan.steps[i].name));
+            else if (!isOver(i) && result.state == SettingState::Differs) // another write has brought it there
+                result.state = SettingState::Written;
         }
         return {};
     }
