@@ -72,4 +72,21 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
     present(*dialog, suffix);
 }
 
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open)
+{
+    const QString name = QStringLiteral("openDialog");
+    const QString subject = suffixes.value(0);
+    if (raiseOpen(*parent, name, subject))
+        return;
+    auto *dialog = new QFileDialog(parent, title);
+    dialog->setObjectName(name);
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (%2)")
+                              .arg(subject.toUpper(), QStringLiteral("*.") + suffixes.join(QStringLiteral(" *."))));
+    QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
+    present(*dialog, subject);
+}
+
 } // namespace dynascope

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QStringList>
+
 #include <functional>
 
-class QString;
 class QWidget;
 
 namespace dynascope {
@@ -14,5 +15,9 @@ namespace dynascope {
 /// replaces a file would be modal. `suffix` is without a dot: "csv".
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
                     std::function<void(const QString &path)> save);
+
+/// The same for a file to be read, of one of these suffixes.
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open);
 
 } // namespace dynascope
