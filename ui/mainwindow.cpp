@@ -20,6 +20,7 @@
 #include "ui/journal/undoactions.h"
 #include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
+#include "ui/profile/profileview.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
 #include "ui/window/layoutmanager.h"
@@ -174,6 +175,7 @@ void MainWindow::connectConnection()
     connect(m_health, &HealthPanel::closeRequested, m_layout, [this] { m_layout->setHealthShown(false); });
     connect(m_menus, &Menus::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
+    connect(m_menus, &Menus::profileRequested, this, &MainWindow::openProfile);
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
     connect(m_menus, &Menus::unitsChosen, this, &MainWindow::setUnits);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
@@ -223,6 +225,17 @@ void MainWindow::openLibrary()
     if (!devices.empty())
         dialog->showModel(devices.front()->modelNumber(), devices.front()->firmware());
     present(*dialog);
+}
+
+void MainWindow::openProfile()
+{
+    if (raiseOpen(*this, QStringLiteral("profileView")))
+        return;
+    auto *view = new ProfileView(m_workbench, shownLine(), this);
+    view->setUnits(savedUnits());
+    connect(m_menus, &Menus::unitsChosen, view, &ProfileView::setUnits);
+    connect(view, &ProfileView::torqueTurnedOn, m_guard, [this](DeviceKey key) { m_guard->noteEnabled({key}); });
+    present(*view);
 }
 
 void MainWindow::connectPlots()

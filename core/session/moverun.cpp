@@ -203,7 +203,7 @@ JournalNote MoveRun::note(const MoveStep &step) const
     const Device *device = deviceOf(step);
     const ControlTablePtr table = m_session.catalog().findOrRaw(m_plan.devices[step.device].place.modelNumber,
                                                                 m_plan.devices[step.device].firmware);
-    return noteMoveStep(m_commands.journal(), JournalAuthor::Window, m_plan, step, table->model(), m_line->name(),
+    return noteMoveStep(m_commands.journal(), m_author, m_plan, step, table->model(), m_line->name(),
                         device && device->isTorqueOn());
 }
 

@@ -25,6 +25,7 @@ public:
     /// `session` and `commands` outlive this. `folder`: MoveFile::usualFolder(), or a test's.
     MoveRun(Session &session, Commands &commands, LineSession &line, const QString &folder, QObject *parent = nullptr);
 
+    void setAuthor(JournalAuthor author) { m_author = author; } ///< who moves, for the journal; else Window
     LineSession *line() const { return m_line; } ///< nullptr once it is closed
     State state() const { return m_state; }
     bool isBusy() const { return m_state == State::Looking || m_state == State::Moving; }
@@ -71,6 +72,7 @@ private:
     Commands &m_commands;
     QPointer<LineSession> m_line;
     MoveFile m_file;
+    JournalAuthor m_author = JournalAuthor::Window;
     State m_state = State::Idle;
     QString m_problem;
     MovePlan m_plan;

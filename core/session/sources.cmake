@@ -44,6 +44,8 @@ target_sources(dynascope_core PRIVATE
     session/profile/profilereading.cpp session/profile/profilereading.h
     session/profile/profilesave.cpp session/profile/profilesave.h
     session/profile/profilevalues.cpp session/profile/profilevalues.h
+    session/profilerun.cpp session/profilerun.h
+    session/profilesaver.cpp session/profilesaver.h
     session/ramguard.cpp session/ramguard.h
     session/rammarks.cpp session/rammarks.h
     session/reopener.cpp session/reopener.h

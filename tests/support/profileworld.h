@@ -57,6 +57,31 @@ inline QByteArray profileOf(int count)
     return yaml;
 }
 
+/// All that the profile says, but what order of writes resets; then what deviates.
+inline void setUpServos(sim::SimulatedBus &bus, const Profile &profile, const std::vector<Deviation> &deviations)
+{
+    for (const ProfileJoint &joint : profile.joints) {
+        sim::Servo *servo = bus.servo(joint.id, joint.baudRate);
+        if (!servo)
+            continue;
+        for (const WantedValue &each : wantedValues(joint, servo->table(), {})) {
+            if (each.field)
+                servo->write(each.field->name, *each.raw);
+        }
+        for (const Deviation &each : deviations) { // the mode first: it resets the others
+            if (each.id == joint.id)
+                servo->write(each.name, each.raw);
+        }
+        for (const WantedValue &each : wantedValues(joint, servo->table(), {})) {
+            const bool deviates = !each.field || std::ranges::any_of(deviations, [&](const Deviation &other) {
+                return other.id == joint.id && other.name == each.field->name;
+            });
+            if (!deviates)
+                servo->write(each.field->name, *each.raw);
+        }
+    }
+}
+
 /// Simulated servos, and a program that reads and compares.
 struct ProfileWorld {
     ProfileWorld(const Catalog &theCatalog, const QString &servos, const QByteArray &yaml)
@@ -68,30 +93,7 @@ struct ProfileWorld {
             qFatal("%s", qPrintable(read.error().text));
         profile = std::move(*read);
     }
-    /// All that the profile says, but what order of writes resets; then what deviates.
-    void setUp(const std::vector<Deviation> &deviations = {})
-    {
-        for (const ProfileJoint &joint : profile.joints) {
-            sim::Servo *servo = bus.servo(joint.id, joint.baudRate);
-            if (!servo)
-                continue;
-            for (const WantedValue &each : wantedValues(joint, servo->table(), {})) {
-                if (each.field)
-                    servo->write(each.field->name, *each.raw);
-            }
-            for (const Deviation &each : deviations) { // the mode first: it resets the others
-                if (each.id == joint.id)
-                    servo->write(each.name, each.raw);
-            }
-            for (const WantedValue &each : wantedValues(joint, servo->table(), {})) {
-                const bool deviates = !each.field || std::ranges::any_of(deviations, [&](const Deviation &other) {
-                    return other.id == joint.id && other.name == each.field->name;
-                });
-                if (!deviates)
-                    servo->write(each.field->name, *each.raw);
-            }
-        }
-    }
+    void setUp(const std::vector<Deviation> &deviations = {}) { setUpServos(bus, profile, deviations); }
     Result<ProfileComparison> check(const ProfileReadOptions &options = {})
     {
         MortalLine line(bus, profile.joints.front().baudRate);

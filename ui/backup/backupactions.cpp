@@ -109,7 +109,7 @@ void BackupActions::restoreFromFile()
     Device *one = device();
     if (!one)
         return;
-    askWhichToOpen(m_window, tr("Restore %1 from").arg(one->displayName()), QStringLiteral("yaml"),
+    askWhatToOpen(m_window, tr("Restore %1 from").arg(one->displayName()), {QStringLiteral("yaml")},
                    [this, key = one->key()](const QString &path) {
                        const auto backup = loadBackup(path, m_workbench.session.catalog());
                        Device *present = m_workbench.session.device(key);

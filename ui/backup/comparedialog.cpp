@@ -116,7 +116,7 @@ void CompareDialog::chosen(int index)
 
 void CompareDialog::askForFile()
 {
-    askWhichToOpen(this, tr("Compare with"), QStringLiteral("yaml"),
+    askWhatToOpen(this, tr("Compare with"), {QStringLiteral("yaml")},
                    [this](const QString &path) { compareWithFile(path); });
 }
 

@@ -72,8 +72,8 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
     present(*dialog, suffix);
 }
 
-void askWhichToOpen(QWidget *parent, const QString &title, const QString &suffix,
-                    std::function<void(const QString &path)> open)
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open)
 {
     const QString name = QStringLiteral("openDialog");
     if (raiseOpen(*parent, name, title))
@@ -82,7 +82,8 @@ void askWhichToOpen(QWidget *parent, const QString &title, const QString &suffix
     dialog->setObjectName(name);
     dialog->setOption(QFileDialog::DontUseNativeDialog);
     dialog->setFileMode(QFileDialog::ExistingFile);
-    dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (*.%2)").arg(suffix.toUpper(), suffix));
+    dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (%2)")
+                              .arg(suffixes.value(0).toUpper(), QStringLiteral("*.") + suffixes.join(QStringLiteral(" *."))));
     QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
     present(*dialog, title);
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QStringList>
+
 #include <functional>
 
-class QString;
 class QWidget;
 
 namespace dynascope {
@@ -15,8 +16,8 @@ namespace dynascope {
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
                     std::function<void(const QString &path)> save);
 
-/// Asks which file to open; `open` gets the path of one that is there. As above.
-void askWhichToOpen(QWidget *parent, const QString &title, const QString &suffix,
-                    std::function<void(const QString &path)> open);
+/// Asks which file to open, of one of these suffixes; `open` gets the path of one that is there. As above.
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open);
 
 } // namespace dynascope

@@ -65,6 +65,10 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
         add(menu, QStringLiteral("scanOptionsAction"), tr("Scan &options…"), QStringLiteral("Ctrl+Shift+R"));
     connect(m_scanOptions, &QAction::triggered, this, &Menus::scanOptionsRequested);
     menu->addSeparator();
+    QAction *profile = add(menu, QStringLiteral("profileAction"), tr("Robot pro&file…"), QStringLiteral("Ctrl+Shift+P"),
+                           QStringLiteral("differs"));
+    connect(profile, &QAction::triggered, this, &Menus::profileRequested);
+    menu->addSeparator();
     for (QAction *action : saveActions)
         menu->addAction(action);
     menu->addSeparator();

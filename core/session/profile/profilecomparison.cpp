@@ -37,6 +37,8 @@ std::vector<RegisterComparison> compareRegisters(const ProfileJoint &joint, cons
         }
         row.field = table.indexOf(field);
         row.area = field->area;
+        row.heldAs = effective(*field, held);
+        row.wantedAs = effective(*field, after);
         if (const auto raw = held(field->name))
             row.held = profileValue(table, *field, *raw, held);
         if (wanted[i].raw)

@@ -22,6 +22,7 @@ struct RegisterComparison {
     QString written;                          ///< as the file has it
     int line = 0, column = 0;                 ///< of that
     std::optional<ProfileValue> wanted, held; ///< each in the unit that holds on its side
+    EffectiveField wantedAs, heldAs;          ///< range and unit on each side, for other units (valueText())
     QString why;
 };
 
