@@ -1,6 +1,11 @@
 target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
+    session/commissioning/bringin.cpp session/commissioning/bringin.h
+    session/commissioning/commissionjournal.cpp session/commissioning/commissionjournal.h
+    session/commissioning/commissionlist.cpp session/commissioning/commissionlist.h
+    session/commissioning/commissionround.cpp session/commissioning/commissionround.h
+    session/commissioning/identify.cpp session/commissioning/identify.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
