@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/device.h"
 
+#include "core/table/nearestnames.h"
+
 #include <QStringList>
 
 #include <algorithm>
 
 namespace dynascope::dxl {
-
-namespace {
-
-/// The table's names that contain what was typed or begin like it, a few.
-QStringList namesLike(const ControlTable &table, const QString &typed)
-{
-    const QString wanted = normalizedName(typed);
-    QStringList names;
-    for (qsizetype length = wanted.size(); length >= 3 && names.isEmpty(); --length) {
-        for (const Field &field : table.fields()) {
-            if (names.size() < 5 && normalizedName(field.name).contains(wanted.left(length)))
-                names.append(field.name);
-        }
-    }
-    return names;
-}
-
-} // namespace
 
 Result<void> Device::identify(const Catalog &catalog)
 {
@@ -61,7 +45,7 @@ Result<const Field *> Device::field(const QString &name) const
     }
     if (const Field *field = m_table->find(name))
         return field;
-    const QStringList near = namesLike(*m_table, name);
+    const QStringList near = namesNear(*m_table, name);
     return failure(ErrorKind::InvalidArgument,
                    QStringLiteral("%1 has no field \"%2\"%3")
                        .arg(this->name(), name,

@@ -5,9 +5,8 @@
 #include "app/dxl/target.h"
 #include "core/bus/scan.h"
 #include "core/session/deviceplace.h"
-#include "core/session/journal/journalnote.h"
+#include "core/session/moves.h"
 #include "core/session/procedures/movedevices.h"
-#include "core/session/procedures/movefile.h"
 
 #include <algorithm>
 #include <set>
@@ -139,48 +138,31 @@ void show(const Work &work, const MovePlan &plan, const MoveStep &step)
                        document);
 }
 
-JournalNote noteStep(const Work &work, const MovePlan &plan, const MoveStep &step)
-{
-    const MoveDevice &device = plan.devices[step.device];
-    JournalEntry entry;
-    entry.by = JournalAuthor::CommandLine;
-    Found found;
-    found.id = static_cast<std::uint8_t>(step.from.id);
-    found.baudRate = step.from.baudRate;
-    found.modelNumber = device.place.modelNumber;
-    found.firmware = static_cast<std::uint8_t>(device.firmware);
-    entry.device = journalDevice(found, modelName(work.catalog, found.modelNumber), work.options.port);
-    const auto code = [&device](int rate) {
-        const auto at = std::ranges::find(device.rates, rate, &std::pair<int, int>::first);
-        return static_cast<std::uint8_t>(at == device.rates.end() ? 0 : at->second);
-    };
-    RegisterChange change;
-    change.name = nameOf(step.isBaud() ? Known::BaudRate : Known::Id).toString();
-    change.address = step.isBaud() ? device.baudAddress : device.idAddress;
-    change.before = {step.isBaud() ? code(step.from.baudRate) : found.id};
-    change.after = {step.isBaud() ? code(step.to.baudRate) : static_cast<std::uint8_t>(step.to.id)};
-    entry.changes = {change};
-    return {&work.journal, std::move(entry)};
-}
-
 ExitCode perform(const Work &work, MovePlan plan, const MoveFile &file)
 {
     DirectJob job(work.bus);
+    const std::size_t begun = plan.next;
     if (const auto checked = checkMoves(job, plan); !checked)
         return work.output.fail(checked.error());
+    const auto note = [&](const MoveStep &step) {
+        const QString model = modelName(work.catalog, plan.devices[step.device].place.modelNumber);
+        return noteMoveStep(&work.journal, JournalAuthor::CommandLine, plan, step, model, work.options.port);
+    };
+    if (!work.options.move.dryRun && plan.next > begun) // the program that began it was killed before it noted its end
+        note(plan.steps[begun]).moved(foundAfter(plan, plan.steps[begun]));
     if (work.options.move.dryRun) {
         for (std::size_t i = plan.next; i < plan.steps.size(); ++i)
             show(work, plan, plan.steps[i]);
         return ExitCode::Done;
     }
-    JournalNote note;
+    JournalNote present;
     MoveHooks hooks;
     hooks.save = [&file](const MovePlan &now) { return file.save(now); };
-    hooks.begun = [&](const MoveStep &step) { note = noteStep(work, plan, step); };
+    hooks.begun = [&](const MoveStep &step) { present = note(step); };
     hooks.ended = [&](const MoveStep &step, const Result<Found> &found) {
         if (!found)
-            return note.failed(found.error());
-        note.moved(*found);
+            return present.failed(found.error());
+        present.moved(*found);
         show(work, plan, step);
     };
     const auto moved = moveDevices(job, plan, hooks);
@@ -192,29 +174,6 @@ ExitCode perform(const Work &work, MovePlan plan, const MoveFile &file)
                              .arg(plan.next)
                              .arg(plan.steps.size()));
     return code;
-}
-
-/// Where a register is, is for the control table to say, not for a file that may be damaged.
-Result<void> takeTables(MovePlan &plan, const Catalog &catalog)
-{
-    for (MoveDevice &device : plan.devices) {
-        const ControlTablePtr table = catalog.find(device.place.modelNumber, device.firmware);
-        if (!table)
-            return failure(ErrorKind::InvalidArgument,
-                           QStringLiteral("the plan that was left names model %1, which has no control table; nothing "
-                                          "was written").arg(device.place.modelNumber));
-        Found found;
-        found.id = static_cast<std::uint8_t>(device.place.id);
-        found.baudRate = device.place.baudRate;
-        found.modelNumber = static_cast<std::uint16_t>(device.place.modelNumber);
-        found.firmware = static_cast<std::uint8_t>(device.firmware);
-        const MoveDevice known = moveDevice(found, *table, device.place.name);
-        device.idAddress = known.idAddress;
-        device.baudAddress = known.baudAddress;
-        device.rates = known.rates;
-        device.place = known.place;
-    }
-    return {};
 }
 
 } // namespace
@@ -254,10 +213,7 @@ ExitCode moveCommand(const Work &work)
 
 MoveFile moveFileOf(const Options &options)
 {
-    if (options.port == QLatin1String("sim")) // ends with this program
-        return {{}, {}, {}};
-    const JournalDevice here = journalDevice(Found{}, {}, options.port);
-    return {MoveFile::usualFolder(), here.line, here.adapter};
+    return dynascope::moveFileOf(options.port, MoveFile::usualFolder());
 }
 
 } // namespace dynascope::dxl

@@ -4,7 +4,7 @@
 #include "core/sim/busplan.h"
 #include "core/sim/controlchannel.h"
 #include "core/sim/faulttext.h"
-#include "core/sim/yamltree.h"
+#include "core/yaml/yamltree.h"
 
 #include <QFile>
 #include <QJsonArray>
@@ -26,7 +26,7 @@ Result<sim::BusPlan> planOf(const SimOptions &options, const Catalog &catalog)
     QFile file(options.busFile);
     if (!file.open(QIODevice::ReadOnly))
         return failure(ErrorKind::BadFile, QStringLiteral("%1: %2").arg(options.busFile, file.errorString()));
-    return sim::readBusPlan(file.read(sim::MaximumYamlSize + 1), options.busFile, catalog);
+    return sim::readBusPlan(file.read(MaximumYamlSize + 1), options.busFile, catalog);
 }
 
 /// What the command line says on top of the plan.

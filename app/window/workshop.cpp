@@ -54,6 +54,7 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_monitor(m_session)
     , m_stop(m_session, m_commands)
 {
+    m_journal.setPatience({}); // STOP waits for no other program
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
         Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines, &m_journal, &m_undo});

@@ -214,8 +214,9 @@ void Commands::readAll(Device &device, Done done)
             const Result<std::vector<PollValue>> &values) {
             Device *present = m_session.device(key);
             const bool hasMoved = present && from != std::pair(present->id(), present->baudRate());
-            if (!values && hasMoved && present->line()->state() == BusThread::State::Open)
-                return readAll(*present, done); // the job was made before its ID or baud rate changed
+            // The job was made before its ID or baud rate changed: whoever answered there may be another one.
+            if (hasMoved && present->line()->state() == BusThread::State::Open)
+                return readAll(*present, done);
             if (!values)
                 return refuse(present, values.error(), done);
             if (present) {

@@ -46,6 +46,9 @@ public:
     /// The line itself: "work at this baud". Devices elsewhere are parked. Refused where the port can't do it.
     void workAtBaud(LineSession &line, int baudRate, Done done = {});
 
+    /// Another part of the program has moved it, and found it there.
+    void moved(DeviceKey key, const Found &found);
+
     /// While STOP holds, torque-on and goal writes are refused.
     void setStopped(bool stopped) { m_stopped = stopped; }
     bool isStopped() const { return m_stopped; }
@@ -81,7 +84,6 @@ private:
     void awaitReturn(DeviceKey key, const DevicePlace &from, const DevicePlace &to, int attempts, Done done);
     void finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
                       const Done &done);
-    void moved(DeviceKey key, const Found &found);
     void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
                       const Done &report);
     void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);

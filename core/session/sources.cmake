@@ -5,7 +5,9 @@ target_sources(dynascope_core PRIVATE
     session/commissioning/commissionjournal.cpp session/commissioning/commissionjournal.h
     session/commissioning/commissionlist.cpp session/commissioning/commissionlist.h
     session/commissioning/commissionround.cpp session/commissioning/commissionround.h
+    session/commissioning/fromprofile.cpp session/commissioning/fromprofile.h
     session/commissioning/identify.cpp session/commissioning/identify.h
+    session/consequences.cpp session/consequences.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
@@ -23,6 +25,8 @@ target_sources(dynascope_core PRIVATE
     session/linehealth.cpp session/linehealth.h
     session/linesession.cpp session/linesession.h
     session/monitor.cpp session/monitor.h
+    session/moverun.cpp session/moverun.h
+    session/moves.cpp session/moves.h
     session/neighbours.cpp session/neighbours.h
     session/placecommands.cpp
     session/procedures/atbaud.h
@@ -32,6 +36,13 @@ target_sources(dynascope_core PRIVATE
     session/procedures/moveplan.cpp session/procedures/moveplan.h session/procedures/moveplanfile.cpp
     session/procedures/procedures.cpp session/procedures/procedures.h
     session/procedures/revert.cpp session/procedures/revert.h
+    session/profile/profile.cpp session/profile/profile.h session/profile/profilereader.cpp
+    session/profile/profileapply.cpp session/profile/profileapply.h
+    session/profile/profilecomparison.cpp session/profile/profilecomparison.h
+    session/profile/profilefile.cpp
+    session/profile/profilereading.cpp session/profile/profilereading.h
+    session/profile/profilesave.cpp session/profile/profilesave.h
+    session/profile/profilevalues.cpp session/profile/profilevalues.h
     session/reopener.cpp session/reopener.h
     session/scanner.cpp session/scanner.h
     session/session.cpp session/session.h
@@ -42,6 +53,7 @@ target_sources(dynascope_core PRIVATE
     session/settings/settingsjournal.cpp session/settings/settingsjournal.h
     session/settings/settingsorder.cpp session/settings/settingsorder.h
     session/settings/settingsplan.cpp session/settings/settingsplan.h
+    session/settingscommands.cpp session/settingscommands.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h

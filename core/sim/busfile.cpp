@@ -3,7 +3,7 @@
 #include "core/protocol/protocol_values.h"
 #include "core/sim/busplan.h"
 #include "core/sim/faulttext.h"
-#include "core/sim/yamltree.h"
+#include "core/yaml/yamltree.h"
 
 #include <algorithm>
 #include <cmath>

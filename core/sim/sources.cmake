@@ -34,7 +34,6 @@ target_sources(dynascope_core PRIVATE
     sim/simulatedline.cpp sim/simulatedline.h
     sim/truth.cpp sim/truth.h
     sim/wire.cpp sim/wire.h
-    sim/yamltree.cpp sim/yamltree.h
 )
 if(UNIX)
     target_sources(dynascope_core PRIVATE

@@ -9,6 +9,7 @@ target_sources(dynascope_core PRIVATE
     table/indirect.cpp table/indirect.h
     table/jsonguard.cpp table/jsonguard.h
     table/jsonscanner.cpp table/jsonscanner.h
+    table/nearestnames.cpp table/nearestnames.h
     table/parsevalue.cpp
     table/memo.h
     table/rawtable.cpp table/rawtable.h

@@ -217,6 +217,26 @@ private slots:
         QCOMPARE(world.servo().value(u"Torque Enable"), 0);
     }
 
+    /// A person's order, with or without anything else to be set.
+    void torqueOnAtRest()
+    {
+        for (const Wanted &wanted : {Wanted(), Wanted{{u"LED"_s, 1}}}) {
+            SettingsWorld world(m_catalog, XM430);
+            world.servo().settings().goalOnTorqueOn = sim::ServoSettings::GoalOnTorqueOn::Stays;
+            world.servo().write(u"Goal Position", 1000);
+            const std::int64_t present = world.servo().value(u"Present Position");
+            SettingsOptions options;
+            options.turnTorqueOn = true;
+            const auto plan = test::planFor(world.servo(), wanted, options);
+            const auto outcome = world.apply(*plan);
+            QVERIFY2(outcome && outcome->isDone() && outcome->torqueIsBack, outcome ? "" : qPrintable(outcome.error().text));
+            QCOMPARE(world.servo().value(u"Torque Enable"), 1);
+            QVERIFY(std::abs(world.servo().value(u"Goal Position") - present) < 20);
+            QVERIFY(world.apply(*plan));
+            QCOMPARE(world.writes(), QStringList()); // it is on
+        }
+    }
+
     /// Drive Mode bit 3: a goal that is written turns torque on.
     void aGoalThatTurnsTorqueOn()
     {

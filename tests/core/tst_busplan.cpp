@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/busplan.h"
 #include "core/sim/servo.h"
-#include "core/sim/yamltree.h"
+#include "core/yaml/yamltree.h"
 #include "tests/support/builtincatalog.h"
 #include "tests/support/testmain.h"
 

@@ -267,9 +267,7 @@ private slots:
         QCOMPARE(journal.entry(1)->changes.front().after[0], 60);
         QCOMPARE(journal.entry(1)->state, JournalState::Done);
 
-        JournalEntry other = goal(9, 10);
-        other.device.id = 2;
-        note(journal, other); // another device: the end of the drag
+        note(journal, writeEntry(u"LED"_s, 65, {0}, {1})); // another register: the end of the drag
         QCOMPARE(Journal(folder.path()).entry(1)->changes.front().after[0], 60);
         note(journal, goal(60, 61));
         QCOMPARE(journal.entries().size(), std::size_t(3));

@@ -31,11 +31,12 @@ const std::vector<Rule> &rules()
     static const std::vector<Rule> table{
         {"core/protocol/", values + QStringList{u"core/protocol/*"_s}},
         {"core/table/", values + QStringList{u"core/table/*"_s}},
+        {"core/yaml/", values + QStringList{u"core/yaml/*"_s}},
         {"core/bus/", values + QStringList{u"core/bus/*"_s, u"core/protocol/*"_s}},
         {"core/sim/", values + QStringList{u"core/sim/*"_s, u"core/protocol/*"_s, u"core/table/*"_s,
-                                           u"core/bus/line.h"_s}},
+                                           u"core/yaml/*"_s, u"core/bus/line.h"_s}},
         {"core/session/", values + QStringList{u"core/session/*"_s, u"core/bus/*"_s, u"core/table/*"_s,
-                                               u"core/protocol/protocol_values.h"_s}},
+                                               u"core/yaml/*"_s, u"core/protocol/protocol_values.h"_s}},
         {"core/record/", values + QStringList{u"core/record/*"_s, u"core/bus/*_values.h"_s,
                                               u"core/session/*_values.h"_s}},
         {"core/", values},
@@ -170,6 +171,8 @@ void TestLayering::judges_data()
     row("core/sim/servo.h", "core/bus/line.h", true, true);
     row("core/sim/servo.h", "core/bus/bus.h", true, false);
     row("core/session/session.h", "core/sim/demo.h", true, false);
+    row("core/session/profile/profile.cpp", "core/yaml/yamltree.h", true, true);
+    row("core/yaml/yamltree.h", "core/table/field.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/poll_values.h", true, true);
     row("ui/plot/plot.cpp", "core/bus/bus.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/linefactory.h", true, false);

@@ -34,6 +34,32 @@ private slots:
         QCOMPARE(world.value(1, u"Goal Position"), 2048);
     }
 
+    void torqueAmongOthersIsAskedFor_data()
+    {
+        QTest::addColumn<Bytes>("before");
+        QTest::newRow("alone, by its address") << Bytes{0};
+        QTest::newRow("with the LED") << Bytes{0, 0};
+    }
+    void torqueAmongOthersIsAskedFor()
+    {
+        QFETCH(Bytes, before);
+        UndoWorld world(m_catalog);
+        world.open();
+        QVERIFY(world.torque(1, true));
+        if (before.size() > 1)
+            QVERIFY(world.write(1, u"LED", 1));
+        const qint64 number = world.note(1, {change({}, 64, before, Bytes(before.size(), 1))});
+        QVERIFY2(world.revert({number}).contains(u"The torque of XM430-W350 #1 would go off"_s),
+                 qPrintable(world.revert({number})));
+        QCOMPARE(world.undo.missing(), Consent::TorqueOff);
+        QCOMPARE(world.value(1, u"Torque Enable"), 1);
+        UndoOptions options;
+        options.mayTurnTorqueOff = true;
+        QCOMPARE(world.revert({number}, Direction::Undo, options), QString());
+        QCOMPARE(world.value(1, u"Torque Enable"), 0);
+        QCOMPARE(world.value(1, u"LED"), 0);
+    }
+
     void aServoThatAnswersPingAlone()
     {
         constexpr int Rate = 1'000'000;

@@ -76,11 +76,11 @@ private slots:
         QCOMPARE(stopped.code, 1);
         QVERIFY2(stopped.err.contains(u"dxl move --resume goes on"_s), qPrintable(stopped.err));
         QCOMPARE(model(1, 1'000'000), u"XM430-W350"_s);
-        QVERIFY(m_bus->dxl(u"scan").err.contains(u"were left half done"_s)); // whatever is started next
+        QVERIFY(m_bus->dxl(u"scan").err.contains(u"was interrupted"_s)); // whatever is started next
         QCOMPARE(m_bus->dxl(u"move 3=4").code, 2);
         QCOMPARE(m_bus->dxl(u"move --resume --torque-off").code, 0);
         QCOMPARE(model(3, 1'000'000), u"XM430-W350"_s);
-        QVERIFY(!m_bus->dxl(u"--baud 1000000 scan").err.contains(u"were left half done"_s));
+        QVERIFY(!m_bus->dxl(u"--baud 1000000 scan").err.contains(u"was interrupted"_s));
     }
 
 private:

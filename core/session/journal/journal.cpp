@@ -17,6 +17,15 @@ using namespace std::chrono_literals;
 constexpr auto DragPause = 1500ms;    ///< a goal written later than that is another order
 constexpr qint64 LargestLeap = 1'000'000; ///< from one entry to the next
 constexpr auto SaveInterval = 1000ms; ///< of a drag that goes on
+constexpr auto SoonAgain = 20ms;      ///< another program takes less for its line
+constexpr auto LaterAgain = 5000ms;   ///< what keeps the file from being written may pass
+constexpr auto LongLocked = 1000ms;   ///< nobody needs it for so long
+constexpr auto LastPatience = 300ms;  ///< at the end of the program
+
+std::int64_t msecs(std::chrono::milliseconds time)
+{
+    return time.count();
+}
 
 bool isOneGoal(const JournalEntry &entry)
 {
@@ -43,12 +52,16 @@ Journal::Journal(const QString &folder, Reading reading, const JournalFile::Boun
     m_dragEnd.setSingleShot(true);
     m_dragEnd.setInterval(DragPause);
     connect(&m_dragEnd, &QTimer::timeout, this, &Journal::flush);
+    m_retry.setSingleShot(true);
+    connect(&m_retry, &QTimer::timeout, this, [this] { write(m_patience); });
     refresh();
 }
 
 Journal::~Journal()
 {
     flush();
+    if (!m_waiting.empty())
+        write(LastPatience);
 }
 
 QString Journal::usualFolder()
@@ -71,21 +84,67 @@ JournalEntry *Journal::find(qint64 number)
 
 void Journal::refresh()
 {
-    if (!m_file)
+    if (m_file && readOthers())
+        emit entriesChanged();
+}
+
+void Journal::renumber(qint64 old, qint64 now)
+{
+    if (old == now)
         return;
+    std::ranges::find(m_waiting, old, &Line::number)->number = now;
+    if (auto drag = m_drags.extract(old); drag) {
+        drag.key() = now;
+        m_drags.insert(std::move(drag));
+    }
+    const auto given = std::ranges::find(m_renumbered, old, &std::pair<const qint64, qint64>::second);
+    m_renumbered[given == m_renumbered.end() ? old : given->first] = now;
+}
+
+/// What no file holds yet stands aside meanwhile: others may have taken its numbers, and have written them.
+bool Journal::readOthers()
+{
+    std::vector<JournalEntry> fresh;
+    for (const Line &line : m_waiting) {
+        const JournalEntry *known = line.isFresh ? entry(line.number) : nullptr;
+        if (known)
+            fresh.push_back(*known);
+    }
+    std::erase_if(m_entries, [&fresh](const JournalEntry &each) {
+        return std::ranges::find(fresh, each.number, &JournalEntry::number) != fresh.end();
+    });
     bool any = false;
     m_file->read([&](const QByteArray &line) {
         take(line);
         any = true;
     });
-    if (any)
-        emit entriesChanged();
+    std::map<qint64, qint64> now; ///< by what it was
+    qint64 next = nextNumber();
+    for (const JournalEntry &entry : fresh) {
+        next = std::max(next, entry.number);
+        now[entry.number] = next++;
+    }
+    const auto follow = [&now](qint64 &number) {
+        const auto at = now.find(number);
+        number = at == now.end() ? number : at->second;
+    };
+    for (auto each = now.rbegin(); each != now.rend(); ++each) // each to a place that is free by then
+        renumber(each->first, each->second);
+    for (JournalEntry &entry : fresh) {
+        for (qint64 *number : {&entry.number, &entry.undoes, &entry.redoes})
+            follow(*number);
+        place(std::move(entry));
+    }
+    return any;
 }
 
 void Journal::take(const QByteArray &line)
 {
     auto entry = journalEntryFromJson(line);
     if (!entry) // what is damaged says nothing
+        return;
+    const JournalEntry *known = entry->run == m_run ? find(entry->number) : nullptr;
+    if (known && known->run == m_run) // our own line: what is in memory is newer
         return;
     // Numbers go up by ones: a leap is damage, and the next ones would soon be beyond what any reader takes.
     const qint64 last = m_entries.empty() ? LargestJournalNumber / 2 : m_entries.back().number;
@@ -108,37 +167,95 @@ void Journal::place(JournalEntry entry)
 
 void Journal::store(JournalEntry &entry, bool isNew)
 {
-    std::unique_ptr<QLockFile> lock;
-    if (m_file && m_problem.isEmpty()) {
-        auto held = m_file->lock();
-        if (held)
-            lock = std::move(*held);
-        else
-            complain(held.error());
-    }
-    if (lock)
-        m_file->read([this](const QByteArray &line) { take(line); }); // others' numbers
     if (isNew)
         entry.number = nextNumber();
+    const qint64 given = entry.number;
     place(entry);
-    if (lock) {
-        if (const auto written = m_file->append(toJson(entry)); !written)
-            complain(written.error());
-    }
+    if (!m_file)
+        return;
+    if (m_waiting.empty())
+        m_waitingSince = m_now();
+    if (std::ranges::find(m_waiting, given, &Line::number) == m_waiting.end())
+        m_waiting.push_back({given, isNew});
+    // Where it could not be written a moment ago, nobody waits for it again.
+    if (m_problem.isEmpty() || m_triedAt.msecsTo(m_now()) >= msecs(LaterAgain))
+        write(m_patience);
+    entry.number = nowOf(given);
 }
 
+qint64 Journal::nowOf(qint64 number) const
+{
+    const auto now = m_renumbered.find(number);
+    return now == m_renumbered.end() ? number : now->second;
+}
+
+/// What waits, under the lock. Nobody waits long for that: what can't be written now is tried again.
+void Journal::write(std::chrono::milliseconds patience)
+{
+    m_triedAt = m_now();
+    auto lock = m_file->lock(patience);
+    if (lock) {
+        if (readOthers())
+            emit entriesChanged();
+        writeWaiting();
+    } else if (lock.error().kind != ErrorKind::PortBusy || patience > 0ms
+               || m_waitingSince.msecsTo(m_triedAt) >= msecs(LongLocked)) {
+        complain(lock.error());
+    }
+    if (m_waiting.empty())
+        m_problem.clear();
+    else
+        m_retry.start(m_problem.isEmpty() ? SoonAgain : LaterAgain);
+}
+
+void Journal::writeWaiting()
+{
+    std::size_t written = 0;
+    for (const Line &line : m_waiting) {
+        const JournalEntry *known = entry(line.number);
+        const auto appended = known ? m_file->append(toJson(*known)) : Result<void>(); // of too many the oldest are gone
+        if (!appended) {
+            complain(appended.error());
+            break;
+        }
+        ++written;
+    }
+    m_waiting.erase(m_waiting.begin(), m_waiting.begin() + static_cast<std::ptrdiff_t>(written));
+}
+
+/// Once, until it has been written again.
 void Journal::complain(const Error &error)
 {
+    const bool isNew = m_problem.isEmpty();
     m_problem = error.text;
-    emit failed(error.text);
+    if (isNew)
+        emit failed(error.text);
+}
+
+bool Journal::isOpen(qint64 number) const
+{
+    const auto drag = m_drags.find(number);
+    return drag != m_drags.end() && drag->second.at.msecsTo(m_now()) < msecs(DragPause);
+}
+
+/// Only the newest of a register can have nothing but drags behind it.
+qint64 Journal::dragOf(const JournalDevice &device, const RegisterChange &change) const
+{
+    for (auto entry = m_entries.rbegin(); entry != m_entries.rend() && isOpen(entry->number); ++entry) {
+        if (entry->device == device && isSameRegister(entry->changes.front(), change))
+            return entry->movedTo ? 0 : entry->number;
+    }
+    return 0;
 }
 
 bool Journal::continues(const JournalDevice &device, const RegisterChange &change) const
 {
-    const JournalEntry *drag = m_drag > 0 ? entry(m_drag) : nullptr;
-    return drag && drag == &m_entries.back() && drag->device == device && !drag->movedTo
-           && isSameRegister(drag->changes.front(), change)
-           && m_dragAt.msecsTo(m_now()) < std::chrono::milliseconds(DragPause).count();
+    return dragOf(device, change) > 0;
+}
+
+void Journal::dropOldDrags()
+{
+    std::erase_if(m_drags, [this](const auto &drag) { return !drag.second.isUnsaved && !isOpen(drag.first); });
 }
 
 qint64 Journal::begin(JournalEntry entry)
@@ -146,35 +263,36 @@ qint64 Journal::begin(JournalEntry entry)
     entry.run = m_run;
     entry.at = m_now();
     entry.state = JournalState::Begun;
-    if (isOneGoal(entry)) {
-        if (continues(entry.device, entry.changes.front())) {
-            JournalEntry &drag = *find(m_drag);
-            drag.changes.front().after = entry.changes.front().after;
-            m_dragUnsaved = true;
-            m_dragAt = entry.at;
-            return m_drag;
-        }
+    const bool isGoal = isOneGoal(entry);
+    if (const qint64 number = isGoal ? dragOf(entry.device, entry.changes.front()) : 0; number > 0) {
+        find(number)->changes.front().after = entry.changes.front().after;
+        m_drags[number].isUnsaved = true;
+        m_drags[number].at = entry.at;
+        return number;
     }
-    flush();
-    m_drag = 0;
+    if (!isGoal) {
+        flush();
+        m_drags.clear();
+    }
+    dropOldDrags();
     store(entry, true);
-    if (isOneGoal(entry)) {
-        m_drag = entry.number;
-        m_dragAt = m_dragSaved = entry.at;
-    }
+    if (isGoal)
+        m_drags[entry.number] = {entry.at, entry.at};
     emit entriesChanged();
     return entry.number;
 }
 
 void Journal::finish(qint64 number, const JournalEntry &outcome)
 {
+    number = nowOf(number);
     JournalEntry *known = find(number);
     if (!known)
         return;
     JournalEntry entry = *known;
     // Its first write has ended already: this is another one of the same drag, which may be over meanwhile.
     const bool isContinued = isOneGoal(entry) && known->state != JournalState::Begun;
-    const bool goesOn = m_drag == number;
+    const auto drag = m_drags.find(number);
+    const bool goesOn = drag != m_drags.end();
     entry.state = outcome.state;
     entry.movedTo = outcome.movedTo;
     entry.note = outcome.note;
@@ -198,17 +316,17 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
     }
     const QDateTime now = m_now();
     if (goesOn)
-        m_dragAt = now;
-    if (isContinued && goesOn && m_dragSaved.msecsTo(now) < std::chrono::milliseconds(SaveInterval).count()) {
+        drag->second.at = now;
+    if (isContinued && goesOn && drag->second.saved.msecsTo(now) < msecs(SaveInterval)) {
         place(entry);
-        m_dragUnsaved = true;
+        drag->second.isUnsaved = true;
         m_dragEnd.start();
     } else {
-        store(entry, false);
         if (goesOn) {
-            m_dragSaved = now;
-            m_dragUnsaved = false;
+            drag->second.saved = now;
+            drag->second.isUnsaved = false;
         }
+        store(entry, false);
     }
     emit entriesChanged();
 }
@@ -216,11 +334,16 @@ void Journal::finish(qint64 number, const JournalEntry &outcome)
 void Journal::flush()
 {
     m_dragEnd.stop();
-    if (!std::exchange(m_dragUnsaved, false))
-        return;
-    if (const JournalEntry *drag = entry(m_drag)) {
-        JournalEntry copy = *drag;
-        store(copy, false);
+    std::vector<qint64> numbers;
+    for (auto &[number, drag] : m_drags) {
+        if (std::exchange(drag.isUnsaved, false))
+            numbers.push_back(number);
+    }
+    for (const qint64 number : numbers) {
+        if (const JournalEntry *drag = entry(number)) {
+            JournalEntry copy = *drag;
+            store(copy, false);
+        }
     }
 }
 

@@ -9,7 +9,6 @@
 namespace dynascope {
 namespace {
 
-constexpr int LockPatience = 300;   ///< ms; a line takes less than one
 constexpr int LongestWait = 10'000; ///< ms; whoever holds the lock longer has died
 
 tl::unexpected<Error> unwritable(const QString &path, const QString &why)
@@ -39,18 +38,18 @@ std::vector<int> JournalFile::numbers() const
     return found;
 }
 
-Result<std::unique_ptr<QLockFile>> JournalFile::lock()
+Result<std::unique_ptr<QLockFile>> JournalFile::lock(std::chrono::milliseconds patience)
 {
     if (!QDir().mkpath(m_folder))
         return unwritable(m_folder, QStringLiteral("the folder can't be made"));
     auto held = std::make_unique<QLockFile>(m_folder + QStringLiteral("/journal.lock"));
     held->setStaleLockTime(LongestWait);
-    if (!held->tryLock(LockPatience)) {
-        return unwritable(m_folder, held->error() == QLockFile::LockFailedError
-                                        ? QStringLiteral("another program holds journal.lock")
-                                        : QStringLiteral("no permission, or no room"));
-    }
-    return held;
+    if (held->tryLock(static_cast<int>(patience.count())))
+        return held;
+    if (held->error() != QLockFile::LockFailedError)
+        return unwritable(m_folder, QStringLiteral("no permission, or no room"));
+    return failure(ErrorKind::PortBusy,
+                   unwritable(m_folder, QStringLiteral("another program holds journal.lock")).value().text);
 }
 
 void JournalFile::read(const std::function<void(const QByteArray &)> &take)

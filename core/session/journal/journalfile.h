@@ -7,6 +7,7 @@
 #include <QLockFile>
 #include <QString>
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -26,8 +27,9 @@ public:
     };
     JournalFile(QString folder, const Bounds &bounds);
 
-    /// Held while a line is added. Fails with BadFile where the folder can't be written, or somebody holds it too long.
-    Result<std::unique_ptr<QLockFile>> lock();
+    /// Held while a line is added. Fails with PortBusy where somebody holds it for longer than `patience`, with BadFile
+    /// where the folder can't be written.
+    Result<std::unique_ptr<QLockFile>> lock(std::chrono::milliseconds patience);
 
     /// The first read() begins with the newest lines, those in so many bytes at the end.
     void beginNearEnd(qint64 bytes);

@@ -156,22 +156,60 @@ Result<void> checkMoves(JobContext &context, MovePlan &plan)
     return checkFree(context, plan);
 }
 
+Result<MoveSurvey> surveyMoves(JobContext &context, const MoveSurveyPlan &plan)
+{
+    MoveSurvey survey;
+    Bus &bus = context.bus();
+    survey.rates.insert(bus.line().baudRate());
+    for (const int rate : plan.rates) {
+        if (const auto go = context.checkpoint(); !go)
+            return tl::unexpected(go.error());
+        if (rate == bus.line().baudRate() || !bus.line().canSetBaudRate())
+            continue;
+        const AtBaud there(bus, rate);
+        if (there.entered())
+            survey.rates.insert(rate);
+        else if (there.entered().error().kind != ErrorKind::PortUnsuitable)
+            return tl::unexpected(there.entered().error());
+    }
+    for (const MoveSurveyPlan::Secondary &each : plan.secondaries) {
+        if (const auto go = context.checkpoint(); !go)
+            return tl::unexpected(go.error());
+        const AtBaud there(context.bus(), each.place.baudRate);
+        if (!there.entered())
+            return tl::unexpected(there.entered().error());
+        const auto raw = read(context.bus(), {each.place.id, each.address, 1});
+        if (!raw && !isSilence(raw.error()) && raw.error().kind != ErrorKind::Refused) {
+            return failure(raw.error().kind,
+                           tr("The Secondary ID of %1 could not be read: %2").arg(each.place.name, raw.error().text));
+        }
+        survey.secondaries.push_back(raw ? std::optional<int>(raw->data.front()) : std::nullopt);
+    }
+    return survey;
+}
+
+Result<Found> moveOne(JobContext &context, MovePlan &plan, const MoveHooks &hooks)
+{
+    if (const auto saved = hooks.save ? hooks.save(plan) : Result<void>(); !saved)
+        return tl::unexpected(saved.error());
+    const MoveStep &step = plan.steps[plan.next];
+    if (hooks.begun)
+        hooks.begun(step);
+    auto found = carryOut(context, plan, step);
+    if (hooks.ended)
+        hooks.ended(step, found);
+    if (found)
+        ++plan.next;
+    return found;
+}
+
 Result<void> moveDevices(JobContext &context, MovePlan &plan, const MoveHooks &hooks)
 {
     while (!plan.isOver()) {
         if (const auto go = context.checkpoint(); !go)
             return go;
-        if (const auto saved = hooks.save ? hooks.save(plan) : Result<void>(); !saved)
-            return saved;
-        const MoveStep &step = plan.steps[plan.next];
-        if (hooks.begun)
-            hooks.begun(step);
-        const auto found = carryOut(context, plan, step);
-        if (hooks.ended)
-            hooks.ended(step, found);
-        if (!found)
-            return tl::unexpected(found.error());
-        ++plan.next;
+        if (const auto moved = moveOne(context, plan, hooks); !moved)
+            return tl::unexpected(moved.error());
     }
     return hooks.save ? hooks.save(plan) : Result<void>();
 }

@@ -8,6 +8,8 @@
 #include <QSaveFile>
 #include <QStandardPaths>
 
+#include <set>
+
 namespace dynascope {
 namespace {
 
@@ -79,10 +81,22 @@ QString unfinishedText(const MovePlan &plan)
     if (plan.isOver())
         return {};
     const MoveStep &step = plan.steps[plan.next];
-    return tr("moves of devices were left half done: %1 of %2 steps; %3 is at %4 or at %5")
+    std::set<std::size_t> movers;
+    for (const MoveStep &each : plan.steps)
+        movers.insert(each.device);
+    const QString &name = plan.devices[step.device].place.name;
+    const QString where = tr("%1 or at %2").arg(placeText(step.from), placeText(step.to));
+    const QString what = movers.size() == 1 ? tr("a move of a device") : tr("a move of %1 devices").arg(movers.size());
+    if (plan.next == 0)
+        return tr("%1 was interrupted at the first of %2 steps: %3 is at %4")
+            .arg(what)
+            .arg(plan.steps.size())
+            .arg(name, where);
+    return tr("%1 was interrupted after step %2 of %3: %4 is at %5")
+        .arg(what)
         .arg(plan.next)
         .arg(plan.steps.size())
-        .arg(plan.devices[step.device].place.name, placeText(step.from), placeText(step.to));
+        .arg(name, where);
 }
 
 } // namespace dynascope

@@ -26,7 +26,7 @@ private:
     QString m_path;
 };
 
-/// Two sentences' worth: what was half done, and where its device may be.
+/// What was half done, and where its device may be; empty where it is over. No capital, no full stop.
 QString unfinishedText(const MovePlan &plan);
 
 } // namespace dynascope

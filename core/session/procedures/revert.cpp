@@ -174,6 +174,15 @@ private:
         return {};
     }
 
+    /// Also where it stands among others, written by its address.
+    bool endsTorque(const RevertRegister &each) const
+    {
+        if (each.isTorque)
+            return each.to.front() == 0;
+        const int at = m_plan.torqueAddress ? *m_plan.torqueAddress - each.address : -1;
+        return at >= 0 && at < static_cast<int>(each.to.size()) && each.to[static_cast<std::size_t>(at)] == 0;
+    }
+
     Result<void> checkTorque()
     {
         const RevertRegister &main = m_registers.front();
@@ -193,7 +202,7 @@ private:
             if (each.isGoal && !each.mayWait && mustWrite(each) && !m_torque && m_goalWakes)
                 return refused(
                     tr("Putting %1 of %2 back would switch its torque on").arg(each.name, m_plan.place.name));
-            m_endsTorque = m_endsTorque || (each.isTorque && each.to.front() == 0 && m_torque);
+            m_endsTorque = m_endsTorque || (m_torque && mustWrite(each) && endsTorque(each));
         }
         if (!m_plan.torqueAddress && moves && !m_plan.mayMove)
             needs(Consent::Motion, tr("Nobody knows whether %1 would move").arg(m_plan.place.name));

@@ -42,13 +42,14 @@ public:
         if (const auto fine = checkDifferences(m_plan, m_image, m_outcome); !fine)
             return tl::unexpected(fine.error());
         const bool isSame = m_outcome.count(SettingState::Differs) == 0;
-        if (isSame || m_plan.options.compareOnly || m_outcome.missing != Consent::None)
+        const bool isNothing = isSame && (!m_plan.options.turnTorqueOn || m_torque || !m_plan.torque);
+        if (isNothing || m_plan.options.compareOnly || m_outcome.missing != Consent::None)
             return std::move(m_outcome);
         if (const auto go = m_context.checkpoint(); !go)
             return tl::unexpected(go.error());
         const JobContext::Exclusive exclusive(m_context);
         Result<void> all = writeAll();
-        if (all && m_outcome.torqueTurnedOff && m_plan.options.putTorqueBack)
+        if (all && m_plan.torque && !m_torque && comesOn())
             all = putTorqueBack();
         if (!all)
             endWith(all.error());
@@ -241,9 +242,9 @@ private:
         if (m_torque)
             return false;
         const RestingGoal *resting = restingGoal();
-        if (m_outcome.torqueTurnedOff && m_plan.options.putTorqueBack && resting && resting->goal == step.where) {
+        if (comesOn() && resting && resting->goal == step.where) {
             result.state = SettingState::Left;
-            result.why = tr("%1 is set so that nothing moves when torque comes back").arg(step.name);
+            result.why = tr("%1 is set so that nothing moves when torque comes on").arg(step.name);
             return true;
         }
         if (!goalWakes())
@@ -290,14 +291,14 @@ private:
         return {};
     }
 
+    bool comesOn() const
+    {
+        return m_plan.options.turnTorqueOn || (m_outcome.torqueTurnedOff && m_plan.options.putTorqueBack);
+    }
+
     const RestingGoal *restingGoal() const
     {
-        const auto mode = m_plan.mode ? m_image.number(*m_plan.mode) : std::nullopt;
-        for (const RestingGoal &goal : m_plan.restingGoals) {
-            if (goal.modes.empty() || (mode && std::ranges::find(goal.modes, *mode) != goal.modes.end()))
-                return &goal;
-        }
-        return nullptr;
+        return restingGoalIn(m_plan.restingGoals, m_plan.mode ? m_image.number(*m_plan.mode) : std::nullopt);
     }
 
     Result<void> staysOff(const QString &why)

@@ -52,7 +52,7 @@ struct SettingsOutcome {
     bool hadTorque = false;
     bool needsTorqueOff = false; ///< what differs is locked by torque that is on
     bool moves = false;          ///< what differs is a goal, and torque is on
-    bool torqueTurnedOff = false, torqueIsBack = false;
+    bool torqueTurnedOff = false, torqueIsBack = false; ///< the latter: it was turned on
     QString torqueNote; ///< why torque did not come back though it was to
 
     bool isDone() const; ///< all that was wanted holds, or was left on purpose
@@ -72,7 +72,7 @@ Result<void> checkDifferences(const SettingsPlan &plan, const RegisterImage &ima
 
 /// Brings one device to what is wanted: looks whether it is the one, reads, writes what differs, each write verified,
 /// with a checkpoint between two of them. Torque is turned off only where that is needed and allowed, and turned on only
-/// where it was turned off for this and SettingsOptions::putTorqueBack says so. Errors: nothing was written, and why.
+/// where SettingsOptions say so. Errors: nothing was written, and why.
 Result<SettingsOutcome> applySettings(JobContext &context, const SettingsPlan &plan, const SettingsHooks &hooks = {});
 
 } // namespace dynascope

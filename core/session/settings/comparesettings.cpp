@@ -36,19 +36,20 @@ std::size_t SettingsOutcome::count(SettingState state) const
 Result<void> checkIdentity(const SettingsPlan &plan, const RegisterImage &image)
 {
     const auto model = plan.modelNumber ? image.number(*plan.modelNumber) : std::nullopt;
-    const auto firmware = plan.firmwareVersion ? image.number(*plan.firmwareVersion) : std::nullopt;
+    const auto version = plan.firmwareVersion ? image.number(*plan.firmwareVersion) : std::nullopt;
+    const std::int64_t firmware = version.value_or(plan.firmware); // not read: nothing speaks against it
     if (model && *model != plan.place.modelNumber) {
         return failure(ErrorKind::NotFound, tr("Another model answers as ID %1 at %2 bps, not %3; nothing was written")
                                                 .arg(plan.place.id)
                                                 .arg(plan.place.baudRate)
                                                 .arg(plan.place.name));
     }
-    if (plan.firmware >= 0 && firmware && *firmware != plan.firmware) {
+    if (plan.firmware >= 0 && firmware != plan.firmware) {
         return failure(ErrorKind::NotFound,
                        tr("%1 has firmware %2, not %3: another device, or its registers may mean something else; "
                           "nothing was written")
                            .arg(plan.place.name)
-                           .arg(*firmware)
+                           .arg(firmware)
                            .arg(plan.firmware));
     }
     return {};

@@ -105,35 +105,6 @@ SettingsStep stepOf(const ControlTable &table, const DevicePlace &place, const F
     return step;
 }
 
-std::vector<RestingGoal> restingGoalsOf(const ControlTable &table, const Field *mode)
-{
-    std::vector<RestingGoal> goals;
-    const auto add = [&](QStringView name, std::vector<std::int64_t> modes, const Field *present = nullptr) {
-        const Field *goal = table.find(name);
-        if (!goal || !goal->isWritable() || (present && present->size != goal->size))
-            return;
-        goals.push_back({std::move(modes), placeOf(*goal), goal->name,
-                         present ? std::optional(placeOf(*present)) : std::nullopt});
-    };
-    const Field *position = table.find(Known::PresentPosition);
-    const bool isJointOrWheel = mode && isNamed(*mode, u"Control Mode"); // XL-320
-    if (isJointOrWheel)
-        add(u"Moving Speed", {1});
-    if (position)
-        add(u"Goal Position",
-            !mode            ? std::vector<std::int64_t>()
-            : isJointOrWheel ? std::vector<std::int64_t>{2}
-                             : std::vector<std::int64_t>{3, 4, 5},
-            position);
-    if (!mode || isJointOrWheel)
-        return goals;
-    add(u"Goal Velocity", {1});
-    add(u"Goal Current", {0});
-    add(u"Goal Torque", {0}); // PRO
-    add(u"Goal PWM", {16});
-    return goals;
-}
-
 void addReads(SettingsPlan &plan, const ControlTable &table, const std::vector<const Field *> &fields)
 {
     std::vector<const Field *> compared = fields, affected;
@@ -146,10 +117,8 @@ void addReads(SettingsPlan &plan, const ControlTable &table, const std::vector<c
     take(table.find(u"Model Number"), plan.modelNumber);
     take(table.find(u"Firmware Version"), plan.firmwareVersion);
     take(table.find(Known::TorqueEnable), plan.torque);
-    const Field *mode = table.find(Known::OperatingMode);
-    mode = mode ? mode : table.find(u"Control Mode");
-    take(mode, plan.mode);
-    plan.restingGoals = restingGoalsOf(table, mode);
+    take(modeRegister(table), plan.mode);
+    plan.restingGoals = restingGoalsOf(table);
     const Field *drive = table.find(u"Drive Mode");
     if (drive && std::ranges::find(drive->bits, TorqueOnByGoalBit, &BitField::first) != drive->bits.end()) {
         plan.driveModeAddress = drive->address;
@@ -186,6 +155,50 @@ QString beyondRange(const SettingsStep &step, const SettingsPlan &plan)
 }
 
 } // namespace
+
+const Field *modeRegister(const ControlTable &table)
+{
+    const Field *mode = table.find(Known::OperatingMode);
+    return mode ? mode : table.find(u"Control Mode");
+}
+
+std::vector<RestingGoal> restingGoalsOf(const ControlTable &table)
+{
+    const Field *mode = modeRegister(table);
+    std::vector<RestingGoal> goals;
+    const auto add = [&](QStringView name, std::vector<std::int64_t> modes, const Field *present = nullptr) {
+        const Field *goal = table.find(name);
+        if (!goal || !goal->isWritable() || (present && present->size != goal->size))
+            return;
+        goals.push_back({std::move(modes), placeOf(*goal), goal->name,
+                         present ? std::optional(placeOf(*present)) : std::nullopt});
+    };
+    const Field *position = table.find(Known::PresentPosition);
+    const bool isJointOrWheel = mode && isNamed(*mode, u"Control Mode"); // XL-320
+    if (isJointOrWheel)
+        add(u"Moving Speed", {1});
+    if (position)
+        add(u"Goal Position",
+            !mode            ? std::vector<std::int64_t>()
+            : isJointOrWheel ? std::vector<std::int64_t>{2}
+                             : std::vector<std::int64_t>{3, 4, 5},
+            position);
+    if (!mode || isJointOrWheel)
+        return goals;
+    add(u"Goal Velocity", {1});
+    add(u"Goal Current", {0});
+    add(u"Goal Torque", {0}); // PRO
+    add(u"Goal PWM", {16});
+    return goals;
+}
+
+const RestingGoal *restingGoalIn(const std::vector<RestingGoal> &goals, std::optional<std::int64_t> mode)
+{
+    const auto at = std::ranges::find_if(goals, [&](const RestingGoal &goal) {
+        return goal.modes.empty() || (mode && std::ranges::find(goal.modes, *mode) != goal.modes.end());
+    });
+    return at == goals.end() ? nullptr : &*at;
+}
 
 KnownRange rangeOf(const SettingsStep &step, const NumberAt &numberAt)
 {

@@ -19,6 +19,7 @@ struct SettingsOptions {
     bool mayTurnTorqueOff = false; ///< where a register needs it; what the motor carries may fall
     bool mayMove = false;          ///< a goal may be written under torque
     bool putTorqueBack = false;    ///< where it was turned off for this and all went well, with the goal at rest
+    bool turnTorqueOn = false;     ///< a person's order: in the end, with the goal at rest, also where it was off
     bool keepResets = false;       ///< what a write resets, and isn't wanted itself, is put back to what it was
     bool compareOnly = false;      ///< nothing is written: a dry run
     std::set<int> otherIds = {};   ///< of the line, which no Secondary ID may be
@@ -61,6 +62,13 @@ struct RestingGoal {
     QString name;
     std::optional<RegisterPlace> present; ///< it becomes what this shows; nothing: 0
 };
+
+/// Of every mode of this model; which one counts is for its mode register to say.
+std::vector<RestingGoal> restingGoalsOf(const ControlTable &table);
+/// Operating Mode, or Control Mode of XL-320; nullptr where there is none.
+const Field *modeRegister(const ControlTable &table);
+/// Of the present mode; nullptr: nobody knows.
+const RestingGoal *restingGoalIn(const std::vector<RestingGoal> &goals, std::optional<std::int64_t> mode);
 
 /// What applySettings() carries out on one device. It knows registers by address only.
 struct SettingsPlan {
