@@ -16,7 +16,8 @@ struct Name {
 };
 
 constexpr std::array Names{
-    Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"completion", Command::Completion},
+    Name{"backup", Command::Backup}, Name{"clear", Command::Clear},
+    Name{"commission", Command::Commission}, Name{"completion", Command::Completion},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
     Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
     Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"read", Command::Read},
@@ -87,6 +88,7 @@ void describe(CLI::App &app, Typed &typed)
     describeActions(app, typed);
     describePacket(app, typed);
     typed.move.describe(app);
+    typed.commission.describe(app);
     typed.journal.describe(app);
     typed.sim.describe(app);
     describeModels(app, typed.models);

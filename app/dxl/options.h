@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/dxl/arguments.h"
+#include "app/dxl/commissionoptions.h"
 #include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/moveoptions.h"
@@ -25,6 +26,7 @@ enum class ExitCode {
 enum class Command {
     Backup,
     Clear,
+    Commission,
     Completion,
     Info,
     Journal,
@@ -89,6 +91,7 @@ struct Options {
     SimOptions sim;
     JournalOptions journal;
     MoveOptions move;
+    CommissionWishes commission;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

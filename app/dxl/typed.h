@@ -31,6 +31,7 @@ struct Typed {
     ModelsArguments models;
     JournalArguments journal;
     MoveArguments move;
+    CommissionArguments commission;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual
