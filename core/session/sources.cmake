@@ -2,6 +2,7 @@ target_sources(dynascope_core PRIVATE
     session/answerfaults.cpp session/answerfaults.h
     session/commands.cpp session/commands.h
     session/commissioning/bringin.cpp session/commissioning/bringin.h
+    session/commissioning/commissioning.cpp session/commissioning/commissioning.h
     session/commissioning/commissionjournal.cpp session/commissioning/commissionjournal.h
     session/commissioning/commissionlist.cpp session/commissioning/commissionlist.h
     session/commissioning/commissionround.cpp session/commissioning/commissionround.h

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/session/commissioning/commissionlist.h"
+#include "core/session/commissioning/fromprofile.h"
 #include "tests/support/builtincatalog.h"
 #include "tests/support/testmain.h"
 
@@ -45,6 +45,49 @@ private slots:
         const auto list = CommissionList::make(m_catalog, joints);
         QCOMPARE(list.has_value(), says.isEmpty());
         QVERIFY2(list || list.error().text.contains(says), list ? "" : qPrintable(list.error().text));
+    }
+
+    void ofAProfile()
+    {
+        const auto profile = profileFromYaml(R"(profile: 1
+defaults:
+  all:
+    Return Delay Time: 0
+joints:
+  - name: shoulder
+    model: XM430-W350
+    id: 11
+    baud: 1000000
+    firmware: 44
+    registers:
+      Max Position Limit: 180 deg
+      Drive Mode: Time-based profile
+      Profile Velocity: 200 ms
+  - name: wrist
+    model: XL430-W250
+    id: 12
+    baud: 1000000
+)",
+                                             u"arm.yaml"_s, m_catalog);
+        QVERIFY2(profile, profile ? "" : qPrintable(profile.error().text));
+        const auto list = commissionList(*profile, m_catalog);
+        QVERIFY2(list, list ? "" : qPrintable(list.error().text));
+        QCOMPARE(list->size(), std::size_t(2));
+        const CommissionJoint &shoulder = list->joint(0);
+        QCOMPARE(jointText(shoulder), u"shoulder (ID 11)"_s);
+        QCOMPARE(shoulder.minimumFirmware, 44);
+        QCOMPARE(shoulder.place, (MovePlace{1'000'000, 11}));
+        std::map<QString, std::int64_t> raws;
+        for (const CommissionSetting &setting : shoulder.settings)
+            raws[setting.name] = setting.raw;
+        QCOMPARE(raws, (std::map<QString, std::int64_t>{{u"Max Position Limit"_s, 2048},
+                                                        {u"Drive Mode"_s, 4},
+                                                        {u"Profile Velocity"_s, 200},
+                                                        {u"Return Delay Time"_s, 0}}));
+        QCOMPARE(list->joint(1).settings.size(), std::size_t(1));
+        QVERIFY(unfitText(shoulder, 1020, 44, m_catalog).isEmpty());
+        QVERIFY(unfitText(shoulder, 1020, 43, m_catalog).contains(u"needs 44 at least"));
+        QVERIFY(unfitText(shoulder, 1060, 44, m_catalog).contains(u"this is an XL430-W250"));
     }
 
     void labels()
