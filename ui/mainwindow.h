@@ -65,6 +65,7 @@ private:
     void onSelection();
     void onLines();
     void openLibrary();
+    void openCommission();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
     void focusPane(int pane);
     void restoreParts();

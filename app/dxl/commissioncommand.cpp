@@ -81,7 +81,7 @@ private:
             return; // on the first look some may be ticked off as they are
         m_prompted = next;
         const CommissionJoint &joint = m_plan.list.joint(next);
-        m_work.output.note(QStringLiteral("plug in the servo for %1, an %2")
+        m_work.output.note(QStringLiteral("plug in the servo for %1, model %2")
                                .arg(jointText(joint), modelName(m_work.catalog, joint.modelNumber)));
     }
 
@@ -140,7 +140,7 @@ private:
             return ExitCode::Done;
         const ControlTablePtr table = m_work.catalog.find(facts.modelNumber, facts.firmware);
         if (!table || !hasLed(*table)) {
-            m_work.output.note(QStringLiteral("an %1 has no LED to be told by")
+            m_work.output.note(QStringLiteral("%1 has no LED to be told by")
                                    .arg(modelName(m_work.catalog, facts.modelNumber)));
             return ExitCode::Done;
         }

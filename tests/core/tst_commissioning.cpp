@@ -78,7 +78,7 @@ private slots:
         QTest::newRow("one with the place of one ticked off")
             << u"XM430-W350@57600:1,XM430-W350@1000000:11"_s << 1 << u"two servos at once"_s;
         QTest::newRow("wrong model") << u"XL430-W250@57600:1"_s << 0
-                                     << u"this is an XL430-W250, and joint0 (ID 11) shall be an XM430-W350"_s;
+                                     << u"this is model XL430-W250, and joint0 (ID 11) shall be model XM430-W350"_s;
         QTest::newRow("firmware too old") << u"XM430-W350/41@57600:1"_s << 0 << u"has firmware 41"_s;
     }
     void nothingIsWritten()

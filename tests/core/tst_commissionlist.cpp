@@ -87,7 +87,7 @@ joints:
         QCOMPARE(list->joint(1).settings.size(), std::size_t(1));
         QVERIFY(unfitText(shoulder, 1020, 44, m_catalog).isEmpty());
         QVERIFY(unfitText(shoulder, 1020, 43, m_catalog).contains(u"needs 44 at least"));
-        QVERIFY(unfitText(shoulder, 1060, 44, m_catalog).contains(u"this is an XL430-W250"));
+        QVERIFY(unfitText(shoulder, 1060, 44, m_catalog).contains(u"this is model XL430-W250"));
     }
 
     void labels()

@@ -72,4 +72,26 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
     present(*dialog, suffix);
 }
 
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open)
+{
+    const QString name = QStringLiteral("openDialog");
+    const QString subject = suffixes.join(u',');
+    if (raiseOpen(*parent, name, subject))
+        return;
+    auto *dialog = new QFileDialog(parent, title);
+    dialog->setObjectName(name);
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setAcceptMode(QFileDialog::AcceptOpen);
+    dialog->setFileMode(QFileDialog::ExistingFile);
+    QStringList patterns;
+    for (const QString &suffix : suffixes)
+        patterns << QStringLiteral("*.") + suffix;
+    dialog->setNameFilters({QCoreApplication::translate("FileDialogs", "%1 files (%2)")
+                                .arg(suffixes.value(0).toUpper(), patterns.join(u' ')),
+                            QCoreApplication::translate("FileDialogs", "All files (*)")});
+    QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
+    present(*dialog, subject);
+}
+
 } // namespace dynascope

@@ -3,7 +3,8 @@
 
 #include <functional>
 
-class QString;
+#include <QStringList>
+
 class QWidget;
 
 namespace dynascope {
@@ -14,5 +15,9 @@ namespace dynascope {
 /// replaces a file would be modal. `suffix` is without a dot: "csv".
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
                     std::function<void(const QString &path)> save);
+
+/// Asks for a file that is there, of one of these suffixes or any; `open` gets the path, unless it is closed otherwise.
+void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
+                   std::function<void(const QString &path)> open);
 
 } // namespace dynascope

@@ -45,6 +45,7 @@ signals:
     void unitsChosen(const dynascope::UnitPreferences &units);
     void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
     void libraryRequested();
+    void commissionRequested();
     void resumeDemoRequested();
     void stopRequested();
 
@@ -65,6 +66,7 @@ private:
     QAction *m_disconnect = nullptr;
     QAction *m_scan = nullptr;
     QAction *m_scanOptions = nullptr;
+    QAction *m_commission = nullptr;
     QAction *m_resumeDemo = nullptr;
     std::vector<QAction *> m_schemes;
 };

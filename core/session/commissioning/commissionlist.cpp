@@ -59,9 +59,9 @@ Result<void> check(const CommissionJoint &joint, const Catalog &catalog)
     if (!table)
         return wrong(tr("%1: model %2 is not known").arg(who).arg(joint.modelNumber));
     if (!table->baudCode(joint.place.baudRate))
-        return wrong(tr("%1: an %2 does not offer %3 bps").arg(who, table->model()).arg(joint.place.baudRate));
+        return wrong(tr("%1: %2 does not offer %3 bps").arg(who, table->model()).arg(joint.place.baudRate));
     if (!table->find(Known::Id) || table->axes() > 1)
-        return wrong(tr("%1: an %2 can't be set up here: it has more than one ID, or none that is known")
+        return wrong(tr("%1: %2 can't be set up here: it has more than one ID, or none that is known")
                          .arg(who, table->model()));
     return joint.settings.empty() ? Result<void>() : checkSettings(joint, *table);
 }
@@ -180,7 +180,7 @@ Result<std::vector<WantedSetting>> wantedSettings(const CommissionJoint &joint, 
     for (const CommissionSetting &setting : joint.settings) {
         const int field = table.indexOf(setting.name);
         if (field < 0)
-            return wrong(tr("%1: an %2 has no register %3").arg(jointText(joint), table.model(), setting.name));
+            return wrong(tr("%1: %2 has no register %3").arg(jointText(joint), table.model(), setting.name));
         wanted.push_back({field, setting.raw});
     }
     return wanted;
@@ -189,7 +189,7 @@ Result<std::vector<WantedSetting>> wantedSettings(const CommissionJoint &joint, 
 QString unfitText(const CommissionJoint &joint, int modelNumber, int firmware, const Catalog &catalog)
 {
     if (modelNumber != joint.modelNumber)
-        return tr("this is an %1, and %2 shall be an %3")
+        return tr("this is model %1, and %2 shall be model %3")
             .arg(modelName(catalog, modelNumber), jointText(joint), modelName(catalog, joint.modelNumber));
     if (firmware < joint.minimumFirmware)
         return tr("this %1 has firmware %2, and %3 needs %4 at least")

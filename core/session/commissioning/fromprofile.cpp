@@ -41,7 +41,7 @@ Result<CommissionJoint> jointOf(const Profile &profile, const ProfileJoint &from
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const ProfileRegister &setting = from.registers[i];
         if (!wanted[i].field)
-            return wrong(profile.file, setting, tr("an %1 has no register %2").arg(table->model(), setting.name));
+            return wrong(profile.file, setting, tr("%1 has no register %2").arg(table->model(), setting.name));
         if (!wanted[i].raw)
             return wrong(profile.file, setting, wanted[i].raw.error().text);
         joint.settings.push_back({wanted[i].field->name, *wanted[i].raw});

@@ -66,7 +66,7 @@ Result<void> identifyByLed(JobContext &context, const Found &device, const Contr
     constexpr int Slices = 15;
     const std::vector<const Field *> leds = ledsOf(table);
     if (leds.empty())
-        return failure(ErrorKind::NotSupported, tr("An %1 has no LED to be told by").arg(table.model()));
+        return failure(ErrorKind::NotSupported, tr("%1 has no LED to be told by").arg(table.model()));
     for (const Field *led : leds) {
         if (const auto lit = light(context, device, table, *led, true, hooks); !lit)
             return lit;
