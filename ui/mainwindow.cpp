@@ -5,6 +5,8 @@
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
+#include "core/session/procedures/movefile.h"
+#include "ui/commission/commissiondialog.h"
 #include "ui/common/icons.h"
 #include "ui/common/loweredge.h"
 #include "ui/common/messagebar.h"
@@ -173,6 +175,7 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::resumeDemoRequested, this, &MainWindow::resumeDemoRequested);
     connect(m_menus, &Menus::stopRequested, &m_workbench.stop, &StopControl::press);
     connect(m_health, &HealthPanel::closeRequested, m_layout, [this] { m_layout->setHealthShown(false); });
+    connect(m_menus, &Menus::commissionRequested, this, &MainWindow::openCommission);
     connect(m_menus, &Menus::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_menus, &Menus::profileRequested, this, &MainWindow::openProfile);
@@ -236,6 +239,19 @@ void MainWindow::openProfile()
     connect(m_menus, &Menus::unitsChosen, view, &ProfileView::setUnits);
     connect(view, &ProfileView::torqueTurnedOn, m_guard, [this](DeviceKey key) { m_guard->noteEnabled({key}); });
     present(*view);
+}
+
+/// On the line that is shown; one of each.
+void MainWindow::openCommission()
+{
+    LineSession *line = shownLine();
+    const QString name = QStringLiteral("commissionDialog");
+    if (!line || raiseOpen(*this, name, line->name()))
+        return;
+    auto *dialog = new CommissionDialog(m_workbench.commands, *line, MoveFile::usualFolder(), this);
+    connect(dialog, &CommissionDialog::posted, m_messages,
+            [this](MessageKind kind, const QString &text) { m_messages->post(kind, text); });
+    present(*dialog, line->name());
 }
 
 void MainWindow::connectPlots()

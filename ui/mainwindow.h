@@ -66,6 +66,7 @@ private:
     void onLines();
     void openLibrary();
     void openProfile();
+    void openCommission();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
     void focusPane(int pane);
     void restoreParts();

@@ -26,6 +26,7 @@ struct Work {
 /// @{
 ExitCode backupCommand(const Work &work);
 ExitCode clearCommand(const Work &work);
+ExitCode commissionCommand(const Work &work);
 ExitCode compareCommand(const Work &work);
 ExitCode infoCommand(const Work &work);
 ExitCode moveCommand(const Work &work);

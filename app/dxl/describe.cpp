@@ -16,8 +16,8 @@ struct Name {
 };
 
 constexpr std::array Names{
-    Name{"backup", Command::Backup}, Name{"clear", Command::Clear},   Name{"compare", Command::Compare},
-    Name{"completion", Command::Completion},
+    Name{"backup", Command::Backup}, Name{"clear", Command::Clear}, Name{"commission", Command::Commission},
+    Name{"compare", Command::Compare}, Name{"completion", Command::Completion},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
     Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
     Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"profile", Command::Profile},
@@ -89,6 +89,7 @@ void describe(CLI::App &app, Typed &typed)
     describeActions(app, typed);
     describePacket(app, typed);
     typed.move.describe(app);
+    typed.commission.describe(app);
     typed.profile.describe(app, typed.yes);
     typed.journal.describe(app);
     typed.sim.describe(app);

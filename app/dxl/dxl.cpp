@@ -19,6 +19,7 @@ ExitCode performOnLine(const Work &work)
     switch (work.options.command) {
     case Command::Backup: return backupCommand(work);
     case Command::Clear: return clearCommand(work);
+    case Command::Commission: return commissionCommand(work);
     case Command::Compare: return compareCommand(work);
     case Command::Info: return infoCommand(work);
     case Command::Move: return moveCommand(work);
@@ -53,6 +54,7 @@ bool isJournalled(const Options &options)
     switch (options.command) {
     case Command::Backup:
     case Command::Clear:
+    case Command::Commission:
     case Command::Led:
     case Command::Move:
     case Command::Packet:
@@ -78,7 +80,8 @@ ExitCode connectAndPerform(const Catalog &catalog, Options options, Output &outp
         output.note(QStringLiteral("on %1, the one adapter that is there").arg(options.port));
     }
     const MoveFile moves = moveFileOf(options);
-    if (options.command != Command::Move && moves.exists()) {
+    const bool goesOn = options.command == Command::Move || options.command == Command::Commission;
+    if (!goesOn && moves.exists()) {
         const auto left = moves.load();
         output.note(left ? unfinishedText(*left) + QStringLiteral("; dxl move --resume goes on, --forget leaves it so")
                          : left.error().text + QStringLiteral(": ") + moves.path());

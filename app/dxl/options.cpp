@@ -178,6 +178,12 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
             return tl::unexpected(profile.error());
         options.profile = std::move(*profile);
     }
+    if (options.command == Command::Commission) {
+        auto commission = typed.commission.understand();
+        if (!commission)
+            return tl::unexpected(commission.error());
+        options.commission = std::move(*commission);
+    }
     if (options.command == Command::Packet) {
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());

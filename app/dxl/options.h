@@ -3,6 +3,7 @@
 
 #include "app/dxl/arguments.h"
 #include "app/dxl/backupoptions.h"
+#include "app/dxl/commissionoptions.h"
 #include "app/dxl/journaloptions.h"
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/moveoptions.h"
@@ -27,6 +28,7 @@ enum class ExitCode {
 enum class Command {
     Backup,
     Clear,
+    Commission,
     Compare,
     Completion,
     Info,
@@ -98,6 +100,7 @@ struct Options {
     SimOptions sim;
     JournalOptions journal;
     MoveOptions move;
+    CommissionWishes commission;
     ProfileOptions profile;
 };
 

@@ -33,6 +33,7 @@ struct Typed {
     ModelsArguments models;
     JournalArguments journal;
     MoveArguments move;
+    CommissionArguments commission;
     ProfileArguments profile;
 };
 

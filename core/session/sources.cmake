@@ -7,6 +7,13 @@ target_sources(dynascope_core PRIVATE
     session/backup/comparebackups.cpp session/backup/comparebackups.h
     session/backup/restore.cpp session/backup/restore.h
     session/commands.cpp session/commands.h
+    session/commissioning/bringin.cpp session/commissioning/bringin.h
+    session/commissioning/commissioning.cpp session/commissioning/commissioning.h
+    session/commissioning/commissionjournal.cpp session/commissioning/commissionjournal.h
+    session/commissioning/commissionlist.cpp session/commissioning/commissionlist.h
+    session/commissioning/commissionround.cpp session/commissioning/commissionround.h
+    session/commissioning/fromprofile.cpp session/commissioning/fromprofile.h
+    session/commissioning/identify.cpp session/commissioning/identify.h
     session/consequences.cpp session/consequences.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h

@@ -10,4 +10,8 @@ namespace dynascope {
 /// together. Nothing where the table has no such register. Pure.
 std::optional<VolatileSpan> volatileSpanOf(const ControlTable &table);
 
+/// The same, of a servo that is known to rest: Present Position, temperature and input voltage may hardly change from
+/// one read to the next. Would mistake one that moves by itself for two.
+std::optional<VolatileSpan> restingSpanOf(const ControlTable &table);
+
 } // namespace dynascope

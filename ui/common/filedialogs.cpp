@@ -81,9 +81,14 @@ void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suf
     auto *dialog = new QFileDialog(parent, title);
     dialog->setObjectName(name);
     dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setAcceptMode(QFileDialog::AcceptOpen);
     dialog->setFileMode(QFileDialog::ExistingFile);
-    dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (%2)")
-                              .arg(suffixes.value(0).toUpper(), QStringLiteral("*.") + suffixes.join(QStringLiteral(" *."))));
+    QStringList patterns;
+    for (const QString &suffix : suffixes)
+        patterns << QStringLiteral("*.") + suffix;
+    dialog->setNameFilters({QCoreApplication::translate("FileDialogs", "%1 files (%2)")
+                                .arg(suffixes.value(0).toUpper(), patterns.join(u' ')),
+                            QCoreApplication::translate("FileDialogs", "All files (*)")});
     QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
     present(*dialog, title);
 }

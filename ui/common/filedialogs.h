@@ -16,7 +16,7 @@ namespace dynascope {
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
                     std::function<void(const QString &path)> save);
 
-/// Asks which file to open, of one of these suffixes; `open` gets the path of one that is there. As above.
+/// Asks for a file that is there, of one of these suffixes or any; `open` gets the path, unless it is closed otherwise. As above.
 void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
                    std::function<void(const QString &path)> open);
 

@@ -64,6 +64,10 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
     m_scanOptions =
         add(menu, QStringLiteral("scanOptionsAction"), tr("Scan &options…"), QStringLiteral("Ctrl+Shift+R"));
     connect(m_scanOptions, &QAction::triggered, this, &Menus::scanOptionsRequested);
+    m_commission = add(menu, QStringLiteral("commissionAction"), tr("Commission &new servos…"),
+                       QStringLiteral("Ctrl+Shift+N"), QStringLiteral("servo"));
+    m_commission->setToolTip(tr("New servos, plugged in one after the other, get their IDs, baud rate and settings"));
+    connect(m_commission, &QAction::triggered, this, &Menus::commissionRequested);
     menu->addSeparator();
     QAction *profile = add(menu, QStringLiteral("profileAction"), tr("Robot pro&file…"), QStringLiteral("Ctrl+Shift+P"),
                            QStringLiteral("differs"));
@@ -211,6 +215,7 @@ void Menus::setConnection(Connection connection, bool canScan, bool simulated)
     m_connect->setIcon(icon(present ? QStringLiteral("disconnect") : QStringLiteral("connect")));
     m_scan->setEnabled(canScan);
     m_scanOptions->setEnabled(canScan);
+    m_commission->setEnabled(canScan);
     m_resumeDemo->setEnabled(simulated);
 }
 

@@ -46,6 +46,7 @@ signals:
     void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
     void libraryRequested();
     void profileRequested();
+    void commissionRequested();
     void resumeDemoRequested();
     void stopRequested();
 
@@ -66,6 +67,7 @@ private:
     QAction *m_disconnect = nullptr;
     QAction *m_scan = nullptr;
     QAction *m_scanOptions = nullptr;
+    QAction *m_commission = nullptr;
     QAction *m_resumeDemo = nullptr;
     std::vector<QAction *> m_schemes;
 };
