@@ -71,6 +71,7 @@ private:
     void showMenu(const QPoint &at);
     void copyValue();
     void showNote();
+    void spellOutNote();
     void tellUnfolded();
     void tellConsequences(const std::vector<Device *> &devices, int field, qint64 raw);
     void selectField(const QString &name);
