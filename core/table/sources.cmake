@@ -23,6 +23,7 @@ target_sources(dynascope_core PRIVATE
     table/tablemerge.cpp table/tablemerge.h
     table/tableoutline.cpp table/tableoutline.h
     table/tablewriter.cpp table/tablewriter.h
+    table/typedunits.h
     table/units.cpp table/units.h
     table/usertables.cpp table/usertables.h
 )

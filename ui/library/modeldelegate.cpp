@@ -26,7 +26,8 @@ void ModelDelegate::initStyleOption(QStyleOptionViewItem *option, const QModelIn
     QStyledItemDelegate::initStyleOption(option, index);
     const QVariant brief = index.data(ShortRole);
     const int icon = option->icon.isNull() ? 0 : option->decorationSize.width() + TextMargins / 2;
-    if (brief.isValid() && option->fontMetrics.horizontalAdvance(option->text) > option->rect.width() - icon - TextMargins)
+    const int room = option->rect.width() - icon - TextMargins;
+    if (brief.isValid() && option->fontMetrics.horizontalAdvance(option->text) > room)
         option->text = brief.toString();
 }
 
