@@ -197,7 +197,8 @@ private slots:
     {
         QTest::addColumn<QString>("text");
         QTest::addColumn<qint64>("raw");
-        for (const char *text : {"19", "95 pulse/ms", "95000 pulse/s", "65 °/s", "65deg/s", "1.14 rad/s", "0.181 turn/s"})
+        for (const char *text :
+             {"19", "95 pulse/ms", "95000 pulse/s", "65 °/s", "65deg/s", "1.14 rad/s", "0.181 turn/s"})
             QTest::addRow("%s", text) << QString::fromUtf8(text) << qint64(19);
         QTest::addRow("rpm") << QStringLiteral("10rpm") << qint64(17);
     }

@@ -211,7 +211,8 @@ private slots:
         QTest::addColumn<int>("angle");
         QTest::addColumn<QString>("text");
         const auto row = [](const char *name, qint64 raw, AngleUnit angle, const char *text) {
-            QTest::addRow("%s %s", name, text) << QString::fromUtf8(name) << raw << int(angle) << QString::fromUtf8(text);
+            QTest::addRow("%s %s", name, text)
+                << QString::fromUtf8(name) << raw << int(angle) << QString::fromUtf8(text);
         };
         row("Moving Threshold", 19, AngleUnit::Degrees, "65 °/s");
         row("Moving Threshold", 19, AngleUnit::Radians, "1.14 rad/s");

@@ -157,7 +157,9 @@ QVariant RegisterModel::runData(const Row &run, Column column, int role) const
         return column == Address || column == AreaColumn || column == AccessColumn ? text(first, column, run.first)
                                                                                    : QString();
     case Qt::ToolTipRole:
-        return column == Name ? tr("%1 registers: unfold them with the arrow").arg(run.last - run.first + 1) : QString();
+        if (column != Name)
+            return {};
+        return tr("%1 registers: unfold them with the arrow").arg(run.last - run.first + 1);
     default: return {};
     }
 }
