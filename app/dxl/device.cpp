@@ -31,6 +31,12 @@ Result<void> Device::identify(const Catalog &catalog)
     return {};
 }
 
+void Device::takeRawTable(const Catalog &catalog)
+{
+    if (!m_table)
+        m_table = catalog.findOrRaw(m_found.modelNumber, m_found.firmware);
+}
+
 QString Device::name() const
 {
     return m_model.isEmpty() ? QStringLiteral("ID %1").arg(id()) : QStringLiteral("%1 (ID %2)").arg(m_model).arg(id());

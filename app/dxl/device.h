@@ -18,6 +18,9 @@ public:
     /// Pings; from then on the device has a table if its model is known, and the bus knows how it answers.
     Result<void> identify(const Catalog &catalog);
 
+    /// Of an unknown model: from here on its table is one of bare bytes (rawtable.h).
+    void takeRawTable(const Catalog &catalog);
+
     Bus &bus() const { return m_bus; }
     std::uint8_t id() const { return m_found.id; }
     const Found &found() const { return m_found; } ///< once it is identified

@@ -3,6 +3,7 @@
 #include "app/dxl/modelscommand.h"
 
 #include "app/dxl/showvalue.h"
+#include "core/table/motorturn.h"
 #include "core/table/units.h"
 
 namespace dynascope::dxl {
@@ -64,6 +65,35 @@ void addNames(Document &document, const Field &field)
     }
 }
 
+/// What the register becomes while another one has certain values.
+std::vector<Document> alternateDocuments(const Field &field)
+{
+    std::vector<Document> all;
+    for (const Alternate &alternate : field.alternates) {
+        Document one;
+        one.add("register", alternate.reg);
+        constexpr std::uint32_t WholeRegister = 0xFFFFFFFF;
+        if (alternate.mask != WholeRegister)
+            one.add("mask", qint64(alternate.mask));
+        std::vector<Document> values;
+        for (const std::int64_t value : alternate.values) {
+            Document each;
+            values.push_back(each.add("value", qint64(value)));
+        }
+        one.add("values", values);
+        if (alternate.minimum.isSet())
+            one.add("minimum", boundText(alternate.minimum));
+        if (alternate.maximum.isSet())
+            one.add("maximum", boundText(alternate.maximum));
+        if (alternate.unit != Unit::None)
+            one.add("unit", tableUnit(alternate.unit)).add("scale", alternate.scale);
+        if (alternate.directionBit >= 0)
+            one.add("direction_bit", qint64(alternate.directionBit));
+        all.push_back(one);
+    }
+    return all;
+}
+
 QString valuesText(const std::vector<EnumValue> &values)
 {
     QStringList texts;
@@ -110,6 +140,10 @@ Document registerDocument(const Field &field)
         document.add("maximum", boundText(field.maximum));
     if (field.unit != Unit::None)
         document.add("unit", tableUnit(field.unit)).add("scale", field.scale);
+    if (field.directionBit >= 0)
+        document.add("direction_bit", qint64(field.directionBit));
+    if (!field.alternates.empty())
+        document.add("alternates", alternateDocuments(field));
     addNames(document, field);
     if (!field.help.isEmpty())
         document.add("help", field.help);
@@ -151,8 +185,9 @@ QString sinceText(const QString &what, int firmware)
 }
 
 /// What the whole device can do: "Fast reads from firmware 45, …".
-QString abilitiesText(const ControlTable::Description &model)
+QString abilitiesText(const ControlTable &table)
 {
+    const ControlTable::Description &model = table.description();
     QString text = QStringList{sinceText(QStringLiteral("fast reads"), model.fastReadsFrom),
                                sinceText(QStringLiteral("backup"), model.backupFrom),
                                sinceText(QStringLiteral("clear"), model.clearFrom)}
@@ -160,7 +195,9 @@ QString abilitiesText(const ControlTable::Description &model)
     text[0] = text[0].toUpper();
     if (model.axes > 1)
         text += QStringLiteral(", %1 devices in one housing").arg(model.axes);
-    if (model.resolution > 0)
+    if (const auto motor = motorTurn(table))
+        text += QStringLiteral(", %1 pulses per motor turn, gear ratio %2").arg(motor->pulses).arg(motor->gearRatio);
+    else if (model.resolution > 0)
         text += QStringLiteral(", %1 steps per turn").arg(model.resolution);
     return text + u'.';
 }
@@ -236,7 +273,7 @@ QStringList remarks(const ControlTable &table, int firmware)
                          .arg(model.newestFirmware));
     }
     if (!model.addressesOnly)
-        lines.append(abilitiesText(model));
+        lines.append(abilitiesText(table));
     if (!model.alsoCalled.isEmpty())
         lines.append(QStringLiteral("Also called %1.").arg(model.alsoCalled.join(QStringLiteral(", "))));
     if (!model.doubt.isEmpty())
@@ -271,6 +308,8 @@ ExitCode showModel(const Catalog &catalog, const QString &text, Output &output)
         .addFlag("newer_than_known", table.isNewerThanKnown(found->second))
         .addFlag("addresses_only", model.addressesOnly)
         .add("resolution", qint64(model.resolution));
+    if (const auto motor = motorTurn(table))
+        document.add("pulses_per_motor_turn", qint64(motor->pulses)).add("gear_ratio", motor->gearRatio);
     addAbilities(document, model);
     if (!model.doubt.isEmpty())
         document.add("doubt", model.doubt);

@@ -19,7 +19,9 @@ bool isChanged(const Reading &reading)
 QStringList rowOf(Device &device, const Reading &reading)
 {
     const Field &field = *reading.field;
-    QStringList row{QString::number(field.address), QString::number(field.size), accessName(field.access), field.name};
+    const QString name =
+        field.suggested.isEmpty() ? field.name : QStringLiteral("%1 (%2?)").arg(field.name, field.suggested);
+    QStringList row{QString::number(field.address), QString::number(field.size), accessName(field.access), name};
     if (!reading.raw)
         return row << QStringLiteral("-") << QString() << reading.error;
     const QString number = QString::number(*reading.raw);
@@ -35,9 +37,14 @@ QString tableText(Device &device, const std::vector<Reading> &readings)
     for (const Reading &reading : readings)
         rows.push_back(rowOf(device, reading));
     QStringList lines = aligned(rows, {2, 3, 5, 6}).split(u'\n');
-    QString text =
-        QStringLiteral("%1, firmware %2\n%3").arg(device.name()).arg(device.found().firmware).arg(lines.takeFirst());
+    const ControlTable::Description &model = device.table()->description();
+    QString text = QStringLiteral("%1, firmware %2\n").arg(device.name()).arg(device.found().firmware);
+    if (model.isRaw)
+        text += model.doubt + u'\n';
+    text += lines.takeFirst();
     std::optional<Area> area;
+    if (model.isRaw)
+        area = Area::Unknown; // of all: no heading
     for (qsizetype i = 0; i < lines.size(); ++i) {
         const Area here = readings[static_cast<std::size_t>(i)].field->area;
         if (here != area)
@@ -63,6 +70,8 @@ Document tableDocument(Device &device, const std::vector<Reading> &readings)
         one.add("size", qint64(field.size)).add("area", areaName(field.area)).add("access", accessName(field.access));
         if (field.initial)
             one.add("initial", qint64(*field.initial));
+        if (!field.suggested.isEmpty())
+            one.add("suggested", field.suggested);
         registers.push_back(one);
     }
     Document document;
@@ -75,13 +84,7 @@ Document tableDocument(Device &device, const std::vector<Reading> &readings)
 
 Result<void> showTable(const Work &work, Device &device)
 {
-    if (!device.table()) {
-        return failure(ErrorKind::NotFound,
-                       QStringLiteral("%1: there is no control table for model %2; its registers can be read as "
-                                      "ADDRESS:LENGTH")
-                           .arg(device.name())
-                           .arg(device.found().modelNumber));
-    }
+    device.takeRawTable(work.catalog);
     const auto readings = readFields(
         device, [](const Field &) { return true; }, [&](double done) { work.output.progress(done, device.name()); });
     if (!readings)

@@ -66,7 +66,7 @@ void FieldReader::readMeaning(const QJsonObject &json)
     readUnit(json, m_field.unit, m_field.scale);
     readDirectionBit(json.value("directionBit"_L1), m_field.directionBit);
     readAlternates(json.value("alternates"_L1));
-    if (m_field.unit == Unit::Pulse)
+    if (m_field.unit == Unit::Pulse || m_field.unit == Unit::PulsePerSec || m_field.unit == Unit::PulsePerMs)
         m_field.gearRatio = m_context.gearRatio;
     if (m_field.unit == Unit::MilliAmpere || m_field.unit == Unit::Ampere)
         m_field.torqueConstant = m_context.torqueConstant;

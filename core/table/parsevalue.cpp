@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/table/typedunits.h"
 #include "core/table/units.h"
 
 #include <cmath>
-#include <numbers>
 
 namespace dynascope {
 namespace {
@@ -17,71 +17,15 @@ tl::unexpected<Error> refuse(const QString &text)
     return failure(ErrorKind::InvalidArgument, text);
 }
 
-/// A unit a person may type, and how many of the field's own unit (degrees for positions) it is.
-struct TypedUnit {
-    const char16_t *text;
-    Unit unit;
-    double factor;
-};
-
-constexpr double DegreesPerRadian = 180.0 / std::numbers::pi;
-
-/// Compared in lower case and without spaces. The first of each unit are the ones that messages offer.
-constexpr TypedUnit TypedUnits[] = {
-    {u"deg", Unit::Pulse, 1.0},
-    {u"rad", Unit::Pulse, DegreesPerRadian},
-    {u"turn", Unit::Pulse, 360.0},
-    {u"°", Unit::Pulse, 1.0},
-    {u"degree", Unit::Pulse, 1.0},
-    {u"degrees", Unit::Pulse, 1.0},
-    {u"turns", Unit::Pulse, 360.0},
-    {u"rev", Unit::Pulse, 360.0},
-    {u"rpm", Unit::RevPerMin, 1.0},
-    {u"deg/s", Unit::RevPerMin, 1.0 / 6.0},
-    {u"rad/s", Unit::RevPerMin, DegreesPerRadian / 6.0},
-    {u"rev/min", Unit::RevPerMin, 1.0},
-    {u"°/s", Unit::RevPerMin, 1.0 / 6.0},
-    {u"rev/s", Unit::RevPerMin, 60.0},
-    {u"rev/min2", Unit::RevPerMin2, 1.0},
-    {u"deg/s2", Unit::RevPerMin2, 10.0},
-    {u"rad/s2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
-    {u"rev/min²", Unit::RevPerMin2, 1.0},
-    {u"rev/min^2", Unit::RevPerMin2, 1.0},
-    {u"rpm2", Unit::RevPerMin2, 1.0},
-    {u"rpm²", Unit::RevPerMin2, 1.0},
-    {u"deg/s²", Unit::RevPerMin2, 10.0},
-    {u"°/s²", Unit::RevPerMin2, 10.0},
-    {u"deg/s^2", Unit::RevPerMin2, 10.0},
-    {u"rad/s²", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
-    {u"rad/s^2", Unit::RevPerMin2, 10.0 * DegreesPerRadian},
-    {u"mA", Unit::MilliAmpere, 1.0},
-    {u"A", Unit::MilliAmpere, 1000.0},
-    {u"A", Unit::Ampere, 1.0},
-    {u"mA", Unit::Ampere, 0.001},
-    {u"%", Unit::Percent, 1.0},
-    {u"percent", Unit::Percent, 1.0},
-    {u"V", Unit::Volt, 1.0},
-    {u"mV", Unit::Volt, 0.001},
-    {u"°C", Unit::Celsius, 1.0},
-    {u"C", Unit::Celsius, 1.0},
-    {u"degC", Unit::Celsius, 1.0},
-    {u"us", Unit::Microsecond, 1.0},
-    {u"ms", Unit::Microsecond, 1000.0},
-    {u"s", Unit::Microsecond, 1e6},
-    {u"ms", Unit::Millisecond, 1.0},
-    {u"s", Unit::Millisecond, 1000.0},
-    {u"us", Unit::Millisecond, 0.001},
-    {u"mV/ms", Unit::MilliVoltPerMs, 1.0},
-    {u"V/s", Unit::MilliVoltPerMs, 1.0},
-    {u"Hz", Unit::Hertz, 1.0},
-    {u"kHz", Unit::Hertz, 1000.0},
-    {u"pulse/s", Unit::PulsePerSec, 1.0},
-    {u"pulse/ms", Unit::PulsePerMs, 1.0},
-};
-
 bool isAngle(Unit unit)
 {
     return unit == Unit::Pulse || unit == Unit::Degree;
+}
+
+/// The unit under which TypedUnits has what may be typed for it.
+Unit typedAs(Unit unit)
+{
+    return isAngle(unit) ? Unit::Pulse : unit == Unit::PulsePerMs ? Unit::PulsePerSec : unit;
 }
 
 bool hasTorque(const EffectiveField &field)
@@ -103,7 +47,7 @@ QString lowered(QStringView text)
 
 QString typableUnits(const EffectiveField &field)
 {
-    const Unit unit = isAngle(field.unit) ? Unit::Pulse : field.unit; // angles are typed alike
+    const Unit unit = typedAs(field.unit);
     QStringList offered;
     for (const TypedUnit &typed : TypedUnits) {
         if (typed.unit == unit && offered.size() < 3)
@@ -111,6 +55,8 @@ QString typableUnits(const EffectiveField &field)
     }
     if (isAngle(field.unit))
         offered.append(QStringLiteral("pulse"));
+    if (unit == Unit::PulsePerSec)
+        offered.append(tableUnit(field.unit));
     if (hasTorque(field))
         offered.append(QStringLiteral("Nm"));
     return oneOf(offered);
@@ -121,6 +67,7 @@ struct Leading {
     double value = 0;
     bool whole = false; ///< digits alone: `integer` holds
     std::int64_t integer = 0;
+    QString text; ///< as typed, without what stands after it
     QString rest; ///< as typed
     QString unit; ///< the same, to be compared
 };
@@ -164,6 +111,7 @@ std::optional<Leading> leadingNumber(QStringView text)
         number.value = -std::abs(number.value); // −0 too: it may be another raw value
     if (number.whole)
         number.integer = text.first(at).toLongLong(&number.whole);
+    number.text = text.first(at).toString();
     number.rest = text.sliced(at).trimmed().toString();
     number.unit = lowered(number.rest);
     return number;
@@ -185,8 +133,8 @@ std::optional<std::int64_t> hexadecimal(QStringView text)
 }
 
 /// Refused where the other bits of a register whose direction is a bit have no room for it.
-Result<std::int64_t> rawOf(const Field &field, const EffectiveField &effective, int resolution, double value,
-    const UnitPreferences &units)
+Result<std::int64_t> rawOf(const Field &field, const EffectiveField &effective, int resolution, const Leading &typed,
+                           double value, const UnitPreferences &units)
 {
     const std::int64_t raw = rawFromPhysical(effective, resolution, value, units);
     if (effective.directionBit < 0)
@@ -196,8 +144,8 @@ Result<std::int64_t> rawOf(const Field &field, const EffectiveField &effective, 
     if (std::abs(value) < most.value + one.value / 2)
         return raw;
     const QString end = QString::number(most.value, 'f', most.decimals);
-    return refuse(QStringLiteral("%1 can't be %2 %3; its range is -%4 to %4 %3")
-                      .arg(field.name, QString::number(value, 'f', most.decimals), most.unit, end));
+    return refuse(QStringLiteral("%1 can't be %2 %3; its range is -%4 to %4 %5")
+                      .arg(field.name, typed.text, typed.rest, end, most.unit));
 }
 
 Result<std::int64_t> fromUnit(
@@ -206,16 +154,22 @@ Result<std::int64_t> fromUnit(
     if (effective.unit == Unit::None)
         return refuse(QStringLiteral("%1 has no unit; give a bare number").arg(field.name));
     if (isAngle(effective.unit) && (number.unit == u"pulse" || number.unit == u"pulses"))
-        return rawOf(field, effective, resolution, number.value, AngleUnit::Pulses);
+        return rawOf(field, effective, resolution, number, number.value, AngleUnit::Pulses);
     if (hasTorque(effective) && (number.unit == u"nm" || number.unit == u"n·m")) {
         UnitPreferences torque;
         torque.torque = true;
-        return rawOf(field, effective, resolution, number.value, torque);
+        return rawOf(field, effective, resolution, number, number.value, torque);
     }
-    const Unit unit = isAngle(effective.unit) ? Unit::Pulse : effective.unit;
+    const Unit unit = typedAs(effective.unit);
+    const bool isPerMs = number.unit == u"pulse/ms";
+    if (unit == Unit::PulsePerSec && (isPerMs || number.unit == u"pulse/s")) {
+        const bool wantsPerMs = effective.unit == Unit::PulsePerMs;
+        const double own = isPerMs == wantsPerMs ? number.value : number.value * (isPerMs ? 1000.0 : 0.001);
+        return rawOf(field, effective, resolution, number, own, AngleUnit::Pulses);
+    }
     for (const TypedUnit &typed : TypedUnits) {
         if (typed.unit == unit && lowered(QString::fromUtf16(typed.text)) == number.unit)
-            return rawOf(field, effective, resolution, number.value * typed.factor, {});
+            return rawOf(field, effective, resolution, number, number.value * typed.factor, {});
     }
     return refuse(QStringLiteral("\"%1\" does not fit %2; it takes %3, or a bare number for the register's own value")
                       .arg(number.rest, field.name, typableUnits(effective)));

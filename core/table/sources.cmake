@@ -12,6 +12,7 @@ target_sources(dynascope_core PRIVATE
     table/nearestnames.cpp table/nearestnames.h
     table/parsevalue.cpp
     table/memo.h
+    table/motorturn.cpp table/motorturn.h
     table/rawtable.cpp table/rawtable.h
     table/registerindex.cpp table/registerindex.h
     table/tablebuilder.cpp table/tablebuilder.h table/tablebuilder_checks.cpp
@@ -22,6 +23,7 @@ target_sources(dynascope_core PRIVATE
     table/tablemerge.cpp table/tablemerge.h
     table/tableoutline.cpp table/tableoutline.h
     table/tablewriter.cpp table/tablewriter.h
+    table/typedunits.h
     table/units.cpp table/units.h
     table/usertables.cpp table/usertables.h
 )

@@ -38,6 +38,12 @@ bool isAngle(Unit unit)
     return unit == Unit::Pulse || unit == Unit::Degree;
 }
 
+/// How many of it are a pulse per second; 0 for what doesn't count pulses by time.
+double pulsesPerSecond(Unit unit)
+{
+    return unit == Unit::PulsePerSec ? 1.0 : unit == Unit::PulsePerMs ? 1000.0 : 0.0;
+}
+
 bool isShownAsTorque(const EffectiveField &field, const UnitPreferences &units)
 {
     return units.torque && field.torqueConstant > 0 && (field.unit == Unit::MilliAmpere || field.unit == Unit::Ampere);
@@ -51,6 +57,9 @@ double turn(AngleUnit angle)
 /// One raw step in the shown unit.
 double step(const EffectiveField &field, int resolution, const UnitPreferences &units)
 {
+    const double pulses = pulsesPerSecond(field.unit);
+    if (pulses > 0 && !units.raw && units.angle != AngleUnit::Pulses)
+        return field.scale * pulses * turn(units.angle) / (std::max(1, resolution) * field.turns);
     if (units.raw || (isAngle(field.unit) && units.angle == AngleUnit::Pulses))
         return field.unit == Unit::Pulse && !units.raw ? field.scale : 1.0;
     if (isShownAsTorque(field, units))
@@ -216,6 +225,9 @@ QString unitSymbol(Unit unit, AngleUnit angle)
     case Unit::None: return {};
     case Unit::Pulse:
     case Unit::Degree: break;
+    case Unit::PulsePerSec:
+    case Unit::PulsePerMs:
+        return angle == AngleUnit::Pulses ? tableUnit(unit) : unitSymbol(Unit::Pulse, angle) + QStringLiteral("/s");
     case Unit::RevPerMin: return QStringLiteral("rev/min");
     case Unit::RevPerMin2: return QStringLiteral("rev/min²");
     case Unit::MilliAmpere: return QStringLiteral("mA");
@@ -227,8 +239,6 @@ QString unitSymbol(Unit unit, AngleUnit angle)
     case Unit::Millisecond: return QStringLiteral("ms");
     case Unit::MilliVoltPerMs: return QStringLiteral("mV/ms");
     case Unit::Hertz: return QStringLiteral("Hz");
-    case Unit::PulsePerSec: return QStringLiteral("pulse/s");
-    case Unit::PulsePerMs: return QStringLiteral("pulse/ms");
     }
     switch (angle) {
     case AngleUnit::Degrees: return QStringLiteral("°");
@@ -244,6 +254,8 @@ QString unitId(Unit unit)
     switch (unit) {
     case Unit::Pulse:
     case Unit::Degree: return QStringLiteral("deg");
+    case Unit::PulsePerSec:
+    case Unit::PulsePerMs: return QStringLiteral("deg/s");
     case Unit::RevPerMin2: return QStringLiteral("rev/min2");
     case Unit::Celsius: return QStringLiteral("degC");
     case Unit::Microsecond: return QStringLiteral("us");
@@ -307,8 +319,11 @@ Result<void> checkRange(
     const QString symbol = unitSymbol(effective, units);
     if (!symbol.isEmpty() && symbol != u"pulse") {
         const auto [from, to] = physicalRange(effective, resolution, low, high, units);
-        const Physical wanted = physical(effective, resolution, raw, units);
-        value += QStringLiteral(" (%1 %2)").arg(fixed(wanted), wanted.unit);
+        // Beyond its bits a direction and what it counts are nothing that the number says.
+        if (effective.directionBit < 0) {
+            const Physical wanted = physical(effective, resolution, raw, units);
+            value += QStringLiteral(" (%1 %2)").arg(fixed(wanted), wanted.unit);
+        }
         range += QStringLiteral(" (%1 to %2 %3)").arg(fixed(from), fixed(to), to.unit);
     }
     return failure(

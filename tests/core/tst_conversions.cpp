@@ -21,7 +21,8 @@ struct Kind {
 
     auto key() const
     {
-        const bool turning = now.unit == Unit::Pulse; // nothing else knows what a turn is
+        const bool turning = now.unit == Unit::Pulse || now.unit == Unit::PulsePerSec
+            || now.unit == Unit::PulsePerMs; // nothing else knows what a turn is
         return std::tuple(field.size, field.isSigned, now.unit, now.scale, turning ? resolution : 0,
                           turning ? now.turns : 1.0, now.directionBit, now.torqueConstant);
     }

@@ -21,7 +21,7 @@ private:
         const RegisterLookup lookup = [&](QStringView reg) -> std::optional<std::int64_t> {
             if (reg == u"Drive Mode")
                 return drive;
-            if (reg == u"Operating Mode")
+            if (reg == u"Operating Mode" || reg == u"Control Mode")
                 return mode;
             const Field *field = table->find(reg);
             return field ? field->initial : std::nullopt;
@@ -189,6 +189,56 @@ private slots:
         const Result<std::int64_t> raw = parse(1020, name, text);
         QVERIFY2(!raw, qPrintable(QString::number(raw.value_or(0))));
         QCOMPARE(raw.error().kind, ErrorKind::InvalidArgument);
+        QTEST(raw.error().text, "message");
+    }
+
+    /// Pulses by time are typed as the turning of the joint, or as they are.
+    void takesRates_data()
+    {
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<qint64>("raw");
+        for (const char *text :
+             {"19", "95 pulse/ms", "95000 pulse/s", "65 °/s", "65deg/s", "1.14 rad/s", "0.181 turn/s"})
+            QTest::addRow("%s", text) << QString::fromUtf8(text) << qint64(19);
+        QTest::addRow("rpm") << QStringLiteral("10rpm") << qint64(17);
+    }
+
+    void takesRates()
+    {
+        QFETCH(QString, text);
+        const Result<std::int64_t> raw = parse(4020, QStringLiteral("Moving Threshold"), text);
+        QVERIFY2(raw, raw ? "" : qPrintable(raw.error().text));
+        QTEST(qint64(*raw), "raw");
+    }
+
+    /// What was typed is refused, not what it would have become.
+    void refusesAsTyped_data()
+    {
+        QTest::addColumn<int>("model");
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<QString>("text");
+        QTest::addColumn<QString>("message");
+        const auto row = [](int model, const char *name, const char *text, const char *message) {
+            QTest::addRow("%s %s", name, text)
+                << model << QString::fromUtf8(name) << QString::fromUtf8(text) << QString::fromUtf8(message);
+        };
+        row(350, "Moving Speed", "3072",
+            "Moving Speed can't be 3072; its range is 0 to 2047 (-102.3 to 102.3 %)");
+        row(350, "Moving Speed", "120percent",
+            "Moving Speed can't be 120 percent; its range is -102.3 to 102.3 %");
+        row(4020, "Moving Threshold", "5mA",
+            "\"mA\" does not fit Moving Threshold; it takes deg/s, rad/s, rpm, pulse/ms, or a bare number for the "
+            "register's own value");
+        row(4020, "Hybrid Save", "2", "Hybrid Save can't be 2; its range is 0 to 1");
+    }
+
+    void refusesAsTyped()
+    {
+        QFETCH(int, model);
+        QFETCH(QString, name);
+        QFETCH(QString, text);
+        const Result<std::int64_t> raw = parse(model, name, text, 0, model == 350 ? 1 : 3);
+        QVERIFY2(!raw, qPrintable(QString::number(raw.value_or(0))));
         QTEST(raw.error().text, "message");
     }
 

@@ -203,6 +203,40 @@ private slots:
         QCOMPARE(rawFromPhysical(now, 4096, qQNaN()), std::int64_t(0));
     }
 
+    /// Pulses by time are shown with the angle that was chosen, of the joint behind its gears.
+    void ratesFollowTheAngle_data()
+    {
+        QTest::addColumn<QString>("name");
+        QTest::addColumn<qint64>("raw");
+        QTest::addColumn<int>("angle");
+        QTest::addColumn<QString>("text");
+        const auto row = [](const char *name, qint64 raw, AngleUnit angle, const char *text) {
+            QTest::addRow("%s %s", name, text)
+                << QString::fromUtf8(name) << raw << int(angle) << QString::fromUtf8(text);
+        };
+        row("Moving Threshold", 19, AngleUnit::Degrees, "65 °/s");
+        row("Moving Threshold", 19, AngleUnit::Radians, "1.14 rad/s");
+        row("Moving Threshold", 19, AngleUnit::Turns, "0.181 turn/s");
+        row("Moving Threshold", 19, AngleUnit::Pulses, "95 pulse/ms");
+        row("Velocity Trajectory", -524288, AngleUnit::Degrees, "-360.0000 °/s");
+        row("Velocity Trajectory", -524288, AngleUnit::Pulses, "-524288 pulse/s");
+    }
+
+    void ratesFollowTheAngle()
+    {
+        QFETCH(QString, name);
+        QFETCH(qint64, raw);
+        QFETCH(int, angle);
+        const ControlTablePtr table = builtIn().find(4020, 11);
+        const Field *field = table->find(name);
+        QVERIFY(field);
+        const EffectiveField now = effective(*field, values(table));
+        QTEST(valueText(*field, now, table->resolution(), raw, AngleUnit(angle)), "text");
+        UnitPreferences bare;
+        bare.raw = true;
+        QCOMPARE(valueText(*field, now, table->resolution(), raw, bare), QString::number(raw));
+    }
+
     void unitsAreNamed()
     {
         QCOMPARE(unitId(Unit::Pulse), QStringLiteral("deg"));
@@ -211,6 +245,7 @@ private slots:
         QCOMPARE(unitId(Unit::RevPerMin2), QStringLiteral("rev/min2"));
         QCOMPARE(unitId(Unit::Microsecond), QStringLiteral("us"));
         QCOMPARE(unitId(Unit::MilliVoltPerMs), QStringLiteral("mV/ms"));
+        QCOMPARE(unitId(Unit::PulsePerMs), QStringLiteral("deg/s"));
         QCOMPARE(unitSymbol(Unit::Pulse), QStringLiteral("°"));
         QCOMPARE(unitSymbol(Unit::Pulse, AngleUnit::Radians), QStringLiteral("rad"));
     }

@@ -184,6 +184,25 @@ private slots:
         QCOMPARE((*error)[u"meaning"].toString(), u"Overheating, Overload"_s);
     }
 
+    /// As in the window: bytes, with what the models numbered beside it suggest.
+    void tableOfAnUnknownModel()
+    {
+        m_bus->set(4, 57600, u"Model Number", 1065);
+        const Outcome text = m_bus->dxl(u"table 4");
+        QCOMPARE(text.err, QString());
+        const QStringList lines = text.out.trimmed().split(u'\n');
+        QCOMPARE(lines[0], u"unknown model 1065 (ID 4), firmware 45"_s);
+        QVERIFY2(lines[1].startsWith(u"Nothing is known of this model"), qPrintable(lines[1]));
+        QCOMPARE(lines[2].simplified(), u"Address Size Access Name Raw Value"_s);
+        QCOMPARE(lines[3].simplified(), u"0 1 ? Byte 0 (Model Number?) 41"_s);
+        QCOMPARE(lines[10].simplified(), u"7 1 ? Byte 7 (ID?) 4"_s);
+        const QJsonObject document = QJsonDocument::fromJson(m_bus->dxl(u"--json table 4").out.toUtf8()).object();
+        QCOMPARE(document[u"model"].toString(), u"unknown model 1065"_s);
+        const QJsonObject id = document[u"registers"][7].toObject();
+        QCOMPARE(id[u"raw"].toInt(), 4);
+        QCOMPARE(id[u"suggested"].toString(), u"ID"_s);
+    }
+
     void table()
     {
         m_bus->set(4, 57600, u"LED", 1);

@@ -67,6 +67,9 @@ private slots:
         QTest::newRow("values") << u"XM430-W350"_s << u"0 Current control, 1 Velocity control"_s;
         QTest::newRow("bits") << u"XM430-W350"_s << u"bit 0 Input voltage"_s;
         QTest::newRow("gear") << u"YM070-210-R051-RH"_s << u"geared: "_s;
+        QTest::newRow("gears in front of the joint")
+            << u"YM070-210-R051-RH"_s << u"524288 pulses per motor turn, gear ratio 51."_s;
+        QTest::newRow("no gears") << u"YM070-210-M001-RH"_s << u"524288 steps per turn."_s;
         QTest::newRow("abilities") << u"XL330-M288"_s
                                    << u"Fast reads from firmware 46, backup from firmware 46, clear"_s;
         QTest::newRow("addresses only") << u"HX5-D20-RR"_s << u" 1149  1 ?      ?  SyncTable 1 Read Data 72"_s;
@@ -90,6 +93,24 @@ private slots:
         QCOMPARE(id.value(u"name").toString(), u"ID"_s);
         QCOMPARE(id.value(u"area").toString(), u"EEPROM"_s);
         QCOMPARE(id.value(u"maximum").toString(), u"252"_s);
+    }
+
+    void showsAlternatesAsJson()
+    {
+        const Outcome outcome = dxl({u"--json"_s, u"models"_s, u"show"_s, u"XL-320"_s});
+        const QJsonArray registers =
+            QJsonDocument::fromJson(outcome.out.toUtf8()).object().value(u"registers").toArray();
+        QJsonArray alternates;
+        for (const QJsonValue &one : registers) {
+            if (one[u"name"].toString() == u"Moving Speed")
+                alternates = one[u"alternates"].toArray();
+        }
+        QCOMPARE(alternates.size(), 2);
+        QCOMPARE(alternates[0][u"register"].toString(), u"Control Mode"_s);
+        QCOMPARE(alternates[0][u"values"][0][u"value"].toInt(), 1);
+        QCOMPARE(alternates[0][u"unit"].toString(), u"%"_s);
+        QCOMPARE(alternates[0][u"direction_bit"].toInt(), 10);
+        QCOMPARE(alternates[1][u"maximum"].toString(), u"1023"_s);
     }
 
     void refuses_data()

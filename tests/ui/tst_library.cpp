@@ -5,6 +5,7 @@
 #include "ui/devices/devicepanel.h"
 #include "ui/library/librarydialog.h"
 #include "ui/library/libraryreader.h"
+#include "ui/library/modeldelegate.h"
 #include "ui/library/registermodel.h"
 #include "ui/library/searchmodel.h"
 #include "ui/mainwindow.h"
@@ -80,7 +81,8 @@ class TestLibrary : public QObject
     {
         const QAbstractItemModel &model = *registers()->model();
         const QModelIndexList found =
-            model.match(model.index(0, RegisterModel::Name), Qt::DisplayRole, name, 1, Qt::MatchExactly);
+            model.match(model.index(0, RegisterModel::Name), Qt::DisplayRole, name, 1,
+                        Qt::MatchExactly | Qt::MatchRecursive);
         QVERIFY2(!found.isEmpty(), qPrintable(name));
         registers()->setCurrentIndex(found.front());
     }
@@ -107,7 +109,8 @@ private slots:
         m_dialog->showModel(1200, -1);
         QCOMPARE(modelShown(), u"XL330-M288"_s);
         const ControlTablePtr table = m_catalog.find(1200, 255);
-        QCOMPARE(registers()->model()->rowCount(), int(table->fields().size()));
+        registers()->expandAll();
+        QCOMPARE(rows(*registers(), {RegisterModel::Name}).size(), qsizetype(table->fields().size()) + 2); // two runs
         const QStringList lines =
             rows(*registers(), {RegisterModel::Address, RegisterModel::Name, RegisterModel::Size,
                                 RegisterModel::AreaColumn, RegisterModel::AccessColumn, RegisterModel::Default,
@@ -187,6 +190,7 @@ private slots:
         auto *firmware = find<QComboBox>("libraryFirmware");
         QVERIFY(firmware->isVisible());
         QCOMPARE(firmware->currentText(), u"Firmware 46 to 52"_s);
+        registers()->expandAll();
         QVERIFY(
             rows(*registers(), {RegisterModel::Name, RegisterModel::Firmware}).contains(u"Indirect Data 1|differs"_s));
         QVERIFY(facts().contains(u"Not in this firmware: "_s)
@@ -196,6 +200,7 @@ private slots:
         firmware->setCurrentIndex(firmware->count() - 1);
         emit firmware->activated(firmware->count() - 1);
         QCOMPARE(textOf(registers()->currentIndex().siblingAtColumn(RegisterModel::Name)), u"Indirect Address 1"_s);
+        registers()->expandAll();
         QVERIFY(rows(*registers(), {RegisterModel::Name, RegisterModel::Firmware})
                     .contains(u"Indirect Address 28|since 53"_s));
         m_dialog->showModel(350, -1); // one table only
@@ -303,6 +308,41 @@ private slots:
         QVERIFY(search()->text().isEmpty());
     }
 
+    /// As in the grid of a device: nobody reads 28 rows of Indirect Address one by one.
+    void longRunsAreFolded()
+    {
+        open();
+        m_dialog->showModel(1020, -1);
+        const auto shown = [this] { return rows(*registers(), {RegisterModel::Address, RegisterModel::Name}); };
+        QVERIFY(shown().contains(u"168|Indirect Address 1 – 28"_s));
+        QVERIFY(!shown().contains(u"168|Indirect Address 1"_s));
+        search()->setText(u"indirect address 3"_s);
+        QVERIFY(shown().contains(u"172|Indirect Address 3"_s));
+        search()->clear();
+        QVERIFY(!shown().contains(u"168|Indirect Address 1"_s));
+        m_dialog->showRegister(u"Indirect Address 2"_s);
+        QVERIFY(shown().contains(u"170|Indirect Address 2"_s));
+        QVERIFY(page().contains(u"Indirect Address 2"_s));
+    }
+
+    /// What differs stays readable however narrow the list is.
+    void namesThatLookAlike_data()
+    {
+        QTest::addColumn<QStringList>("names");
+        QTest::addColumn<QStringList>("brief"); // empty: whole
+        QTest::newRow("alike") << QStringList{u"HX5 sync table 1 device 1"_s, u"HX5 sync table 2 device 1"_s}
+                               << QStringList{u"… 1 device 1"_s, u"… 2 device 1"_s};
+        QTest::newRow("alone") << QStringList{u"HX5 sync table 1 device 1"_s, u"HX5-D20-RR"_s}
+                               << QStringList{QString(), QString()};
+        QTest::newRow("one word") << QStringList{u"XM430-W210"_s, u"XM430-W350"_s} << QStringList{QString(), QString()};
+    }
+
+    void namesThatLookAlike()
+    {
+        QFETCH(QStringList, names);
+        QTEST(shortNames(names), "brief");
+    }
+
     void rowsAreCopied()
     {
         open();
@@ -317,7 +357,7 @@ private slots:
                  qPrintable(text));
         registers()->clearSelection();
         find<QToolButton>("libraryCopy")->click();
-        QCOMPARE(QGuiApplication::clipboard()->text().count(u'\n'), registers()->model()->rowCount() + 1);
+        QCOMPARE(QGuiApplication::clipboard()->text().count(u'\n'), qsizetype(m_catalog.find(1200, 255)->fields().size()) + 1);
     }
 
     void keysLeadFromTheSearchToTheList()

@@ -34,8 +34,10 @@ private slots:
                                    << "of LED";
         QTest::newRow("no register") << 150 << "→ 150"
                                      << "of 150";
-        QTest::newRow("itself") << 224 << "→ Indirect Data 1"
-                                << "of Indirect Data 1";
+        QTest::newRow("itself, as from the factory") << 224 << "→ Indirect Data 1 (not assigned)"
+                                                     << "not assigned";
+        QTest::newRow("another's data") << 225 << "→ Indirect Data 2"
+                                        << "of Indirect Data 2";
     }
 
     void saysWhatItPointsAt()

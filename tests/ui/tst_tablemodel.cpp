@@ -155,7 +155,7 @@ private slots:
         QTRY_VERIFY(changed.count() > 0);
         const int goal = TableFixture::field(device, u"Goal Position");
         const QModelIndex range = words.mapFromSource(model.indexOf(goal, model.columnOf(ColumnKind::Range)));
-        QCOMPARE(range.data().toString(), QStringLiteral("0 … 3000"));
+        QCOMPARE(range.data().toString(), QStringLiteral("0.00 … 263.67 °"));
         const bool told = std::ranges::any_of(changed, [&](const QList<QVariant> &signal) {
             const auto first = signal.at(0).value<QModelIndex>();
             const auto last = signal.at(1).value<QModelIndex>();

@@ -3,7 +3,7 @@
 #include "tests/ui/tablewindow.h"
 #include "ui/table/bitpopup.h"
 #include "ui/table/enumedit.h"
-#include "ui/table/fieldwordsmodel.h"
+#include "ui/table/limitwords.h"
 
 #include <QComboBox>
 #include <QLabel>
@@ -55,6 +55,9 @@ private slots:
         TableFixture fixture;
         TableWindow window(fixture);
         Device *device = fixture.add(1, model);
+        UnitPreferences raw;
+        raw.raw = true;
+        window.panel.setUnits(raw);
         window.panel.setDevices({device});
         const QPersistentModelIndex cell = window.cell(field, ColumnKind::Range);
         int told = 0;
@@ -70,6 +73,68 @@ private slots:
         window.go(field);
         const QString help = window.find<QLabel>("helpText")->text();
         QVERIFY2(help.contains(u"Range "_s + cell.data().toString()), qPrintable(help));
+    }
+
+    void limitsAreInTheChosenUnit_data()
+    {
+        QTest::addColumn<QString>("field");
+        QTest::addColumn<QString>("range");
+        QTest::addColumn<QString>("rangeTip");
+        QTest::addColumn<QString>("initial");
+        QTest::addColumn<QString>("initialTip");
+        QTest::newRow("angle") << "Max Position Limit" << "0.00 … 359.91 °" << "0.00 … 359.91 ° (raw 0 … 4095)"
+                               << "359.91 °" << "359.91 ° (raw 4095)";
+        QTest::newRow("set by another") << "Goal Velocity" << "−45.8 … 45.8 rev/min"
+                                        << "−45.8 … 45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
+        QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "Position control"
+                               << "Position control (raw 3)";
+        QTest::newRow("bits") << "Shutdown" << "0 … 255" << "0 … 255" << "52"
+                              << "Overheating, Electrical shock, Overload (raw 52)";
+        QTest::newRow("no unit") << "ID" << "0 … 252" << "0 … 252" << "1" << "1";
+    }
+
+    void limitsAreInTheChosenUnit()
+    {
+        QFETCH(QString, field);
+        TableFixture fixture;
+        TableWindow window(fixture);
+        window.panel.setDevices({fixture.add(1)});
+        const QModelIndex range = window.cell(field, ColumnKind::Range);
+        const QModelIndex initial = window.cell(field, ColumnKind::Default);
+        QTEST(range.data().toString(), "range");
+        QTEST(range.data(Qt::ToolTipRole).toString(), "rangeTip");
+        QTEST(initial.data().toString(), "initial");
+        QTEST(initial.data(Qt::ToolTipRole).toString(), "initialTip");
+    }
+
+    void noChoiceOfUnitsMovesAColumn()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        window.panel.setDevices({fixture.add(1)});
+        const QPersistentModelIndex range = window.cell(QStringLiteral("Max Position Limit"), ColumnKind::Range);
+        const QRect place = window.view->visualRect(range);
+        UnitPreferences raw;
+        raw.raw = true;
+        for (const auto &[units, text] :
+             std::vector<std::pair<UnitPreferences, QString>>{{AngleUnit::Radians, u"0.000 … 6.282 rad"_s},
+                                                              {AngleUnit::Pulses, u"0 … 4095 pulse"_s},
+                                                              {raw, u"0 … 4095"_s}}) {
+            window.panel.setUnits(units);
+            QCOMPARE(range.data().toString(), text);
+            QCOMPARE(window.view->visualRect(range), place);
+        }
+    }
+
+    void whatAnswersIsNotOffered()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        window.panel.setDevices({fixture.add(1, 4000)});
+        const QModelIndex save = window.cell(QStringLiteral("Hybrid Save"), ColumnKind::Physical);
+        const EnumEdit edit(*fieldAt(save), save.data(EffectiveRole).value<EffectiveField>(), std::nullopt);
+        QCOMPARE(edit.count(), 2);
+        QCOMPARE(edit.findText(QStringLiteral("Saved"), Qt::MatchContains), -1);
     }
 
     void aLimitThatWasntReadIsSaidSo()

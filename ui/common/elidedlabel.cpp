@@ -23,6 +23,13 @@ void ElidedLabel::setText(const QString &text)
     setAccessibleName(text);
     updateGeometry();
     update();
+    emit elidedChanged();
+}
+
+void ElidedLabel::resizeEvent(QResizeEvent *event)
+{
+    QFrame::resizeEvent(event);
+    emit elidedChanged();
 }
 
 QSize ElidedLabel::sizeHint() const
@@ -51,7 +58,7 @@ void ElidedLabel::paintEvent(QPaintEvent *)
 
 bool ElidedLabel::event(QEvent *event)
 {
-    if (event->type() == QEvent::ToolTip && toolTip().isEmpty() && elided() != m_text) {
+    if (event->type() == QEvent::ToolTip && toolTip().isEmpty() && isElided()) {
         QToolTip::showText(static_cast<QHelpEvent *>(event)->globalPos(), plainToolTip(m_text), this);
         return true;
     }

@@ -15,11 +15,16 @@ public:
 
     void setText(const QString &text);
     QString text() const { return m_text; }
+    bool isElided() const { return elided() != m_text; }
 
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
 
+signals:
+    void elidedChanged(); ///< isElided() may have become another
+
 protected:
+    void resizeEvent(QResizeEvent *event) override;
     void paintEvent(QPaintEvent *event) override;
     bool event(QEvent *event) override;
 

@@ -124,8 +124,8 @@ void LibraryDialog::showTable(std::size_t table)
         m_header->setModel(*info, m_tables, table);
     refreshList();
     // The same register in the next model: that is what one compares.
-    const int row = std::max(0, m_registers->table()->indexOf(name));
-    const QModelIndex same = m_filtered->mapFromSource(m_registers->index(row, RegisterModel::Name));
+    const int field = std::max(0, m_registers->table()->indexOf(name));
+    const QModelIndex same = m_filtered->mapFromSource(m_registers->indexOf(field, RegisterModel::Name));
     m_registerView->setCurrentIndex(same.isValid() ? same : m_filtered->index(0, RegisterModel::Name));
     m_registerView->scrollTo(m_registerView->currentIndex());
 }
@@ -195,6 +195,12 @@ void LibraryDialog::refreshList()
                 : tr("Reading the tables: %1 of %2 models").arg(m_reader->done()).arg(m_reader->total()));
     } else {
         m_filtered->setSearch(text);
+        if (m_filtered->isFiltering())
+            m_registerView->expandAll(); // what was found is seen
+        else
+            m_registerView->collapseAll();
+        if (m_registerView->currentIndex().isValid())
+            m_registerView->scrollTo(m_registerView->currentIndex()); // opens what it is in
         page = m_filtered->rowCount() > 0 ? Registers : Nothing;
         m_nothing->setText(isRefusedShown()
                                ? QString()
@@ -218,7 +224,8 @@ void LibraryDialog::refreshPage()
     std::vector<ControlTablePtr> all = m_tables;
     const Field *field = nullptr;
     if (m_stack->currentIndex() == Registers) {
-        field = fieldAt(m_registerView->currentIndex());
+        const QModelIndex row = m_registerView->currentIndex().siblingAtColumn(0);
+        field = fieldAt(row.data(GroupRole).isValid() ? m_filtered->index(0, 0, row) : row); // of a run the first
     } else if (const RegisterIndex::Entry *found = m_results->entry(m_resultView->currentIndex());
                found && m_stack->currentIndex() == Results) {
         const RegisterIndex::Owner owner = m_results->owner(m_resultView->currentIndex());
@@ -253,7 +260,7 @@ void LibraryDialog::openResult(const QModelIndex &index)
 void LibraryDialog::showRegister(const QString &name)
 {
     const int at = m_registers->table() ? m_registers->table()->indexOf(name) : -1;
-    const QModelIndex row = m_filtered->mapFromSource(m_registers->index(at, RegisterModel::Name));
+    const QModelIndex row = m_filtered->mapFromSource(m_registers->indexOf(at, RegisterModel::Name));
     if (!row.isValid())
         return;
     m_registerView->setCurrentIndex(row);

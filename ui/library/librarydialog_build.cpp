@@ -123,7 +123,8 @@ QWidget *LibraryDialog::makeTools()
 
 void LibraryDialog::makeRegisterView()
 {
-    m_registerView->setRootIsDecorated(false);
+    m_registerView->setTreePosition(RegisterModel::Name);
+    m_registerView->setIndentation(14);
     m_filtered->setSourceModel(m_registers);
     m_registerView->setModel(m_filtered);
     for (int column = 0; column < RegisterModel::ColumnCount; ++column)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/library/librarytexts.h"
 
+#include "core/table/motorturn.h"
 #include "ui/common/fieldtexts.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
@@ -107,7 +108,9 @@ QStringList numberLines(const Field &field, const ControlTable &table, const Uni
     if (field.unit != Unit::None) {
         QString step = field.scale == 1.0 ? QStringLiteral("1 ") + stepText(field) : stepText(field);
         const Physical one = physical(fresh, table.resolution(), 1, units);
-        if (field.unit == Unit::Pulse && !units.raw && units.angle != AngleUnit::Pulses)
+        const bool turns =
+            field.unit == Unit::Pulse || field.unit == Unit::PulsePerSec || field.unit == Unit::PulsePerMs;
+        if (turns && !units.raw && units.angle != AngleUnit::Pulses)
             step += QStringLiteral(", %1 %2").arg(one.value, 0, 'g', 4).arg(one.unit);
         facts << LibraryTexts::tr("One step is %1").arg(step.toHtmlEscaped());
     }
@@ -186,7 +189,11 @@ QString modelFacts(const Catalog::ModelInfo &info, const ControlTable &table, co
     if (!info.alsoCalled.isEmpty())
         first << LibraryTexts::tr("Also called %1").arg(info.alsoCalled.join(QStringLiteral(", ")).toHtmlEscaped());
     if (!model.addressesOnly) {
-        if (model.resolution > 0)
+        if (const auto motor = motorTurn(table)) {
+            first << LibraryTexts::tr("%1 pulses per motor turn, gear ratio %2")
+                         .arg(grouped(static_cast<quint64>(motor->pulses)))
+                         .arg(motor->gearRatio);
+        } else if (model.resolution > 0)
             first << LibraryTexts::tr("%1 steps a turn").arg(grouped(static_cast<quint64>(model.resolution)));
         if (model.axes > 1)
             first << LibraryTexts::tr("%1 axes, each with an ID").arg(model.axes);
@@ -199,7 +206,7 @@ QString modelFacts(const Catalog::ModelInfo &info, const ControlTable &table, co
     first << (info.isBuiltIn
                   ? LibraryTexts::tr("comes with the program, %1.json").arg(info.file.toHtmlEscaped())
                   : LibraryTexts::tr("your own, %1.json in %2").arg(info.file.toHtmlEscaped(), folder.toHtmlEscaped()));
-    lines << first.join(Dot);
+    lines << first.join(QStringLiteral("; ")); // it wraps: no dot shall be left hanging
     if (const QString modes = modesText(table); !modes.isEmpty())
         lines << LibraryTexts::tr("Modes: %1").arg(modes);
     if (const QString rates = baudRatesText(table); !rates.isEmpty())

@@ -4,6 +4,7 @@
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/library/modeldelegate.h"
 
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -172,6 +173,17 @@ void ModelPanel::fill(const Catalog &catalog)
     });
     for (const Catalog::ModelInfo &info : models)
         add(info);
+    for (int series = 0; series < m_model->rowCount(); ++series) {
+        const QStandardItem &of = *m_model->item(series);
+        QStringList names;
+        for (int row = 0; row < of.rowCount(); ++row)
+            names << of.child(row)->text();
+        const QStringList brief = shortNames(names);
+        for (int row = 0; row < of.rowCount(); ++row) {
+            if (!brief[row].isEmpty())
+                of.child(row)->setData(brief[row], ModelDelegate::ShortRole);
+        }
+    }
 }
 
 void ModelPanel::fillRefused(const std::vector<RefusedTable> &refused)
@@ -199,6 +211,7 @@ void ModelPanel::makeView()
     m_view->setTextElideMode(Qt::ElideMiddle);
     m_view->setEditTriggers(QAbstractItemView::NoEditTriggers);
     m_view->setAllColumnsShowFocus(true);
+    m_view->setItemDelegate(new ModelDelegate(m_view)); // the view owns it
     m_view->setModel(m_shown);
     m_view->header()->setStretchLastSection(false);
     m_view->header()->setMinimumSectionSize(NumberWidth);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/library/registermodel.h"
 
+#include "core/table/indirect.h"
 #include "ui/common/fieldtexts.h"
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
@@ -12,8 +13,12 @@
 
 #include <QGuiApplication>
 
+#include <algorithm>
+
 namespace dynascope {
 namespace {
+
+constexpr quintptr TopLevel = 0; ///< internal id of what isn't below a run; else it is the run's row + 1
 
 bool isNumber(int column)
 {
@@ -23,7 +28,7 @@ bool isNumber(int column)
 } // namespace
 
 RegisterModel::RegisterModel(QObject *parent)
-    : QAbstractTableModel(parent), m_numbers(numberFont(QGuiApplication::font()))
+    : QAbstractItemModel(parent), m_numbers(numberFont(QGuiApplication::font()))
 {
 }
 
@@ -37,20 +42,73 @@ void RegisterModel::setTable(ControlTablePtr table, std::vector<ControlTablePtr>
         for (const Field &field : m_table->fields())
             m_marks << firmwareMark(field, *m_table, m_all);
     }
+    m_rows.clear();
+    const std::vector<FieldRun> runs = m_table ? longRuns(*m_table) : std::vector<FieldRun>();
+    auto run = runs.begin();
+    const int count = m_table ? static_cast<int>(m_table->fields().size()) : 0;
+    for (int field = 0; field < count; field = m_rows.back().last + 1) {
+        const bool isRun = run != runs.end() && run->first == field;
+        m_rows.push_back({field, isRun ? run->last : field});
+        run += isRun ? 1 : 0;
+    }
     endResetModel();
+}
+
+QModelIndex RegisterModel::index(int row, int column, const QModelIndex &parent) const
+{
+    if (!hasIndex(row, column, parent))
+        return {};
+    return createIndex(row, column, parent.isValid() ? static_cast<quintptr>(parent.row()) + 1 : TopLevel);
+}
+
+QModelIndex RegisterModel::parent(const QModelIndex &child) const
+{
+    if (!child.isValid() || child.internalId() == TopLevel)
+        return {};
+    return createIndex(static_cast<int>(child.internalId() - 1), 0, TopLevel);
+}
+
+QModelIndex RegisterModel::indexOf(int field, Column column) const
+{
+    const auto at = std::ranges::find_if(m_rows, [field](const Row &row) {
+        return row.first <= field && field <= row.last;
+    });
+    if (at == m_rows.end())
+        return {};
+    const auto row = static_cast<int>(at - m_rows.begin());
+    return at->isRun() ? createIndex(field - at->first, column, static_cast<quintptr>(row) + 1)
+                       : createIndex(row, column, TopLevel);
+}
+
+const RegisterModel::Row *RegisterModel::runAt(const QModelIndex &index) const
+{
+    if (!index.isValid() || index.internalId() != TopLevel)
+        return nullptr;
+    const Row &row = m_rows[static_cast<std::size_t>(index.row())];
+    return row.isRun() ? &row : nullptr;
+}
+
+int RegisterModel::fieldAt(const QModelIndex &index) const
+{
+    if (index.internalId() == TopLevel)
+        return m_rows[static_cast<std::size_t>(index.row())].first;
+    return m_rows[static_cast<std::size_t>(index.internalId()) - 1].first + index.row();
 }
 
 int RegisterModel::rowCount(const QModelIndex &parent) const
 {
-    return parent.isValid() || !m_table ? 0 : static_cast<int>(m_table->fields().size());
+    if (!parent.isValid())
+        return static_cast<int>(m_rows.size());
+    const Row *run = parent.column() == 0 ? runAt(parent) : nullptr;
+    return run ? run->last - run->first + 1 : 0;
 }
 
-int RegisterModel::columnCount(const QModelIndex &parent) const
+int RegisterModel::columnCount(const QModelIndex & /*parent*/) const
 {
-    return parent.isValid() ? 0 : ColumnCount;
+    return ColumnCount;
 }
 
-QString RegisterModel::text(const Field &field, Column column, int row) const
+QString RegisterModel::text(const Field &field, Column column, int index) const
 {
     switch (column) {
     case Address: return QString::number(field.address);
@@ -64,13 +122,13 @@ QString RegisterModel::text(const Field &field, Column column, int row) const
     case Default: return field.initial ? numberText(*field.initial) : QString();
     case Range: return boundsText(field);
     case UnitColumn: return stepText(field);
-    case Firmware: return m_marks.value(row);
+    case Firmware: return m_marks.value(index);
     case ColumnCount: break;
     }
     return {};
 }
 
-QString RegisterModel::toolTip(const Field &field, Column column, int row) const
+QString RegisterModel::toolTip(const Field &field, Column column, int index) const
 {
     switch (column) {
     case Address: return addressText(field.address);
@@ -80,7 +138,29 @@ QString RegisterModel::toolTip(const Field &field, Column column, int row) const
         return field.needsTorqueOff() ? tr("%1, while torque is off").arg(accessText(field)) : accessText(field);
     case Default: return field.initial ? meaning(field, *field.initial) : QString();
     case Firmware: return firmwareChanges(field, *m_table, m_all).join(u'\n');
-    default: return text(field, column, row);
+    default: return text(field, column, index);
+    }
+}
+
+/// A run says what its first register says, and how many there are.
+QVariant RegisterModel::runData(const Row &run, Column column, int role) const
+{
+    const Field &first = m_table->fields()[static_cast<std::size_t>(run.first)];
+    const Field &last = m_table->fields()[static_cast<std::size_t>(run.last)];
+    const QString name = tr("%1 – %2").arg(first.name, last.name.section(u' ', -1));
+    switch (role) {
+    case GroupRole: return name;
+    case Qt::DisplayRole:
+    case Qt::AccessibleTextRole:
+        if (column == Name)
+            return name;
+        return column == Address || column == AreaColumn || column == AccessColumn ? text(first, column, run.first)
+                                                                                   : QString();
+    case Qt::ToolTipRole:
+        if (column != Name)
+            return {};
+        return tr("%1 registers: unfold them with the arrow").arg(run.last - run.first + 1);
+    default: return {};
     }
 }
 
@@ -88,21 +168,25 @@ QVariant RegisterModel::data(const QModelIndex &index, int role) const
 {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid))
         return {};
-    const Field &field = m_table->fields()[static_cast<std::size_t>(index.row())];
     const auto column = static_cast<Column>(index.column());
+    if (role == Qt::TextAlignmentRole)
+        return static_cast<int>((isNumber(column) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    if (role == Qt::FontRole)
+        return isNumber(column) ? QVariant(m_numbers) : QVariant();
+    if (const Row *run = runAt(index))
+        return runData(*run, column, role);
+    const int at = fieldAt(index);
+    const Field &field = m_table->fields()[static_cast<std::size_t>(at)];
     switch (role) {
     case FieldDataRole: return QVariant::fromValue(&field);
-    case Qt::DisplayRole: return text(field, column, index.row());
-    case Qt::ToolTipRole: return plainToolTip(toolTip(field, column, index.row()));
+    case Qt::DisplayRole: return text(field, column, at);
+    case Qt::ToolTipRole: return plainToolTip(toolTip(field, column, at));
     case Qt::AccessibleTextRole:
         if (column == Size || column == AccessColumn)
-            return toolTip(field, column, index.row());
+            return toolTip(field, column, at);
         if (column == Name && !field.doubt.isEmpty())
             return tr("%1, doubtful").arg(field.name);
-        return text(field, column, index.row());
-    case Qt::TextAlignmentRole:
-        return static_cast<int>((isNumber(column) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    case Qt::FontRole: return isNumber(column) ? QVariant(m_numbers) : QVariant();
+        return text(field, column, at);
     case Qt::DecorationRole:
         if (column == Name && !field.doubt.isEmpty())
             return icon(QStringLiteral("warning"), IconTint::Warning);

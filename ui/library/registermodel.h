@@ -3,13 +3,14 @@
 
 #include "core/table/controltable.h"
 
-#include <QAbstractTableModel>
+#include <QAbstractItemModel>
 #include <QFont>
 
 namespace dynascope {
 
-/// The registers of one control table as rows by address, without any device: FieldDataRole gives the field.
-class RegisterModel : public QAbstractTableModel
+/// The registers of one control table as rows by address, without any device: FieldDataRole gives the field. Of long
+/// runs of like registers (longRuns()) one row stands for all, with GroupRole instead, and they are below it.
+class RegisterModel : public QAbstractItemModel
 {
     Q_OBJECT
 
@@ -24,18 +25,32 @@ public:
     const std::vector<ControlTablePtr> &allTables() const { return m_all; }
     bool hasSeveralFirmware() const { return m_all.size() > 1; }
 
+    QModelIndex indexOf(int field, Column column) const; ///< by the register's index in the table
+
+    QModelIndex index(int row, int column, const QModelIndex &parent = {}) const override;
+    QModelIndex parent(const QModelIndex &child) const override;
     int rowCount(const QModelIndex &parent = {}) const override;
     int columnCount(const QModelIndex &parent = {}) const override;
     QVariant data(const QModelIndex &index, int role) const override;
     QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
-    QString text(const Field &field, Column column, int row) const;
-    QString toolTip(const Field &field, Column column, int row) const;
+    /// A register, or a run of them.
+    struct Row {
+        int first = 0, last = 0; ///< indices in the table
+        bool isRun() const { return last > first; }
+    };
+
+    const Row *runAt(const QModelIndex &index) const; ///< nullptr: it is a register's
+    int fieldAt(const QModelIndex &index) const;
+    QVariant runData(const Row &run, Column column, int role) const;
+    QString text(const Field &field, Column column, int index) const;
+    QString toolTip(const Field &field, Column column, int index) const;
 
     ControlTablePtr m_table;
     std::vector<ControlTablePtr> m_all;
-    QStringList m_marks; ///< by row: what other firmware has otherwise; empty where there is one table only
+    std::vector<Row> m_rows;
+    QStringList m_marks; ///< by register: what other firmware has otherwise; empty where there is one table only
     QFont m_numbers;
 };
 

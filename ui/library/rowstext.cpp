@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/library/rowstext.h"
 
+#include "ui/table/tableroles.h"
+
 #include <QTreeView>
 
 #include <algorithm>
@@ -16,6 +18,18 @@ QString rowsText(const QTreeView &view)
         for (int row = 0; row < model.rowCount(); ++row)
             rows << model.index(row, 0);
     }
+    // Of a group its registers are meant, folded or not.
+    QModelIndexList single;
+    for (const QModelIndex &row : rows) {
+        const int below = row.data(GroupRole).isValid() ? model.rowCount(row) : 0;
+        for (int child = 0; child < below; ++child) {
+            if (const QModelIndex index = model.index(child, 0, row); !rows.contains(index))
+                single << index;
+        }
+        if (below == 0)
+            single << row;
+    }
+    rows = single;
     // In the order of the screen: parents before what is below them.
     std::ranges::sort(rows, {}, [](const QModelIndex &row) {
         const QModelIndex above = row.parent();

@@ -5,6 +5,7 @@ target_sources(dynascope_ui PRIVATE
     library/libraryreader.cpp library/libraryreader.h
     library/librarytexts.cpp library/librarytexts.h
     library/libraryview.cpp library/libraryview.h
+    library/modeldelegate.cpp library/modeldelegate.h
     library/modelheader.cpp library/modelheader.h
     library/modelpanel.cpp library/modelpanel.h
     library/registermodel.cpp library/registermodel.h

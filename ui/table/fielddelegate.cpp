@@ -112,8 +112,10 @@ void FieldDelegate::paintText(QPainter *painter, const QStyleOptionViewItem &opt
     painter->save();
     painter->setFont(digits ? numberFont(option.font) : option.font);
     painter->setPen(colors(option.palette).dimmed);
+    // Of a name the beginning says most, of a range both ends.
+    const Qt::TextElideMode elide = kind == ColumnKind::Default ? Qt::ElideRight : Qt::ElideMiddle;
     painter->drawText(rect, static_cast<int>(option.displayAlignment | Qt::AlignVCenter) | Qt::TextSingleLine,
-                      painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideMiddle, rect.width()));
+                      painter->fontMetrics().elidedText(index.data().toString(), elide, rect.width()));
     painter->restore();
 }
 

@@ -4,6 +4,7 @@
 #include "core/table/indirect.h"
 #include "ui/common/fieldtexts.h"
 #include "ui/common/texts.h"
+#include "ui/table/limitwords.h"
 
 namespace dynascope {
 namespace {
@@ -50,32 +51,6 @@ void FieldWordsModel::setUnits(const UnitPreferences &units)
     }
 }
 
-QString rangeText(const Field &field, const EffectiveField &effective)
-{
-    if (!effective.minimum && !effective.maximum)
-        return {};
-    if (field.size == 4 && effective.minimum == smallestRaw(field) && effective.maximum == largestRaw(field))
-        return FieldWordsModel::tr("any");
-    const auto text = [](const std::optional<std::int64_t> &bound, const QString &from) {
-        return bound ? withMinus(QString::number(*bound)) : from.isEmpty() ? QString() : QStringLiteral("?");
-    };
-    return QStringLiteral("%1 … %2").arg(text(effective.minimum, effective.minimumFrom),
-                                         text(effective.maximum, effective.maximumFrom));
-}
-
-QString rangeSource(const EffectiveField &effective)
-{
-    QStringList names;
-    for (const QString &name : {effective.minimumFrom, effective.maximumFrom}) {
-        if (!name.isEmpty() && !names.contains(name))
-            names << name;
-    }
-    if (names.isEmpty())
-        return {};
-    return names.size() == 1 ? FieldWordsModel::tr("set by %1").arg(names.front())
-                             : FieldWordsModel::tr("set by %1 and %2").arg(names.front(), names.back());
-}
-
 QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
 {
     const Field *field = QIdentityProxyModel::data(index, FieldDataRole).value<const Field *>();
@@ -100,16 +75,21 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
     switch (kind) {
     case ColumnKind::Name: return field->name;
     case ColumnKind::Address: return field->address;
-    case ColumnKind::Default:
-        return field->initial ? QVariant(withMinus(QString::number(*field->initial))) : QVariant();
-    case ColumnKind::Range:
-        return rangeText(*field, QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>());
+    case ColumnKind::Default: return limit(index, *field, defaultText);
+    case ColumnKind::Range: return limit(index, *field, rangeText);
     case ColumnKind::Access:
         return field->mayBeTried() ? QStringLiteral("?")
             : field->isWritable()  ? QStringLiteral("RW")
                                    : QStringLiteral("R");
     default: return {};
     }
+}
+
+/// What a function of limitwords.h says of the register as it is now.
+QString FieldWordsModel::limit(const QModelIndex &index, const Field &field, LimitText text) const
+{
+    return text(field, QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>(),
+                QIdentityProxyModel::data(index, ResolutionRole).toInt(), m_units);
 }
 
 bool FieldWordsModel::hasMeaning(const QModelIndex &index, const Field &field) const
@@ -170,6 +150,10 @@ QString FieldWordsModel::indirectText(const QModelIndex &index, const Field &fie
     if (!stands.isValid() || !table)
         return {};
     const QString text = addressText(*table, stands.toLongLong());
+    // As it leaves the factory: it shows the byte of its own data register, which is nothing of any other.
+    const int number = isAddress ? indirectAddressNumber(field) : indirectDataNumber(field);
+    if (text == QStringLiteral("Indirect Data %1").arg(number))
+        return isAddress ? tr("→ %1 (not assigned)").arg(text) : tr("not assigned");
     return isAddress ? QStringLiteral("→ %1").arg(text) : tr("of %1").arg(text);
 }
 
@@ -182,12 +166,10 @@ QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, C
     if (kind == ColumnKind::Access)
         return field.mayBeTried() ? tr("Whether it may be written isn't known: an edit asks before it is sent")
                                   : accessText(field);
-    if (kind == ColumnKind::Range) {
-        const auto effective = QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>();
-        const QString source = rangeSource(effective);
-        const QString range = rangeText(field, effective);
-        return source.isEmpty() || range.isEmpty() ? range : QStringLiteral("%1, %2").arg(range, source);
-    }
+    if (kind == ColumnKind::Range)
+        return limit(index, field, rangeToolTip);
+    if (kind == ColumnKind::Default)
+        return limit(index, field, defaultToolTip);
     if (!isValueKind(kind))
         return {};
     if (const QString error = QIdentityProxyModel::data(index, ErrorRole).toString(); !error.isEmpty())
@@ -221,7 +203,7 @@ QVariant FieldWordsModel::headerData(int section, Qt::Orientation orientation, i
         case ColumnKind::Plot: return tr("Tick what shall be plotted");
         case ColumnKind::Value: return tr("The number in the register");
         case ColumnKind::Physical: return tr("What the number means");
-        case ColumnKind::Range: return tr("What may be written, as raw values");
+        case ColumnKind::Range: return tr("What may be written; hover over it for the raw values");
         case ColumnKind::Device:
             return plainToolTip(QIdentityProxyModel::headerData(section, orientation, Qt::DisplayRole).toString());
         default: return {};

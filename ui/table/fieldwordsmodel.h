@@ -29,9 +29,12 @@ private:
         QString unit;
     };
 
+    using LimitText = QString (*)(const Field &, const EffectiveField &, int, const UnitPreferences &);
+
     QVariant valueData(const QModelIndex &index, const Field &field, ColumnKind kind, int role) const;
     Words words(const QModelIndex &index, const Field &field, ColumnKind kind, std::int64_t raw) const;
     QString indirectText(const QModelIndex &index, const Field &field, std::int64_t raw) const;
+    QString limit(const QModelIndex &index, const Field &field, LimitText text) const;
     bool hasMeaning(const QModelIndex &index, const Field &field) const;
     QString toolTip(const QModelIndex &index, const Field &field, ColumnKind kind) const;
 
@@ -40,10 +43,5 @@ private:
 
 /// That it was set in this session and goes with the power, or has gone, a sentence; empty where it wasn't.
 QString ramStateText(RamState state);
-/// "0 … 4095"; "any" where that is all that four bytes hold, empty where nothing is stated. "?" for the limit that a
-/// register says which wasn't read yet.
-QString rangeText(const Field &field, const EffectiveField &effective);
-/// "set by Min Position Limit and Max Position Limit"; empty where no register sets it.
-QString rangeSource(const EffectiveField &effective);
 
 } // namespace dynascope

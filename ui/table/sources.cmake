@@ -13,6 +13,7 @@ target_sources(dynascope_ui PRIVATE
     table/goalbar.cpp table/goalbar.h
     table/goalslider.cpp table/goalslider.h
     table/helppanel.cpp table/helppanel.h
+    table/limitwords.cpp table/limitwords.h
     table/lockbar.cpp table/lockbar.h
     table/tableactions.cpp table/tableactions.h
     table/tableempty.cpp table/tableempty.h

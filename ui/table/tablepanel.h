@@ -74,6 +74,7 @@ private:
     void copyValue();
     void setLostAgain();
     void showNote();
+    void spellOutNote();
     void tellUnfolded();
     void tellConsequences(const std::vector<Device *> &devices, int field, qint64 raw);
     void selectField(const QString &name);

@@ -31,6 +31,14 @@ void TablePanel::buildNote(QWidget *parent)
     layout->addWidget(sign);
     layout->addWidget(m_noteText, 1);
     m_note->hide();
+    connect(m_noteText, &ElidedLabel::elidedChanged, this, &TablePanel::spellOutNote);
+}
+
+/// Below only what the strip above has no room for: nobody reads the same twice.
+void TablePanel::spellOutNote()
+{
+    m_help->setNotes(m_noteText->isElided() ? tableNotes(m_model->devices()) : QStringList());
+    m_help->showCell(valueCell());
 }
 
 void TablePanel::showNote()
@@ -38,7 +46,7 @@ void TablePanel::showNote()
     const QStringList notes = tableNotes(m_model->devices());
     m_noteText->setText(notes.join(u' '));
     m_note->setVisible(!notes.isEmpty());
-    m_help->setNotes(notes);
+    spellOutNote();
     m_pages->setCurrentIndex(m_model->devices().empty() ? 0 : 1);
 }
 

@@ -4,7 +4,7 @@
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
 #include "ui/table/cellpainter.h"
-#include "ui/table/fieldwordsmodel.h"
+#include "ui/table/limitwords.h"
 #include "ui/table/tableheader.h"
 
 #include <QDrag>
@@ -32,6 +32,13 @@ int defaultWidth(ColumnKind kind)
 }
 
 constexpr int WidestName = 256; ///< longer ones elide: there is more to see
+constexpr int WidestDefault = 128;
+constexpr int WidestRange = 236;
+
+int widest(ColumnKind kind)
+{
+    return kind == ColumnKind::Default ? WidestDefault : kind == ColumnKind::Range ? WidestRange : QWIDGETSIZE_MAX;
+}
 
 QColor selectionTint(const QPalette &palette)
 {
@@ -77,14 +84,16 @@ void TableView::makeRoomFor(const ControlTable &table)
     m_needed.clear();
     const auto need = [&](ColumnKind kind, const QString &text) {
         int &width = m_needed[static_cast<int>(kind)];
-        width = std::max(width, digits.horizontalAdvance(withMinus(text)) + 2 * CellMargin + 2);
+        width = std::max(width, std::min(widest(kind), digits.horizontalAdvance(text) + 2 * CellMargin + 2));
     };
+    const LimitTexts limits = everyLimitText(table); // a choice of units or a mode shall move no column
+    for (const QString &text : limits.defaults)
+        need(ColumnKind::Default, text);
+    for (const QString &text : limits.ranges)
+        need(ColumnKind::Range, text);
     for (const Field &field : table.fields()) {
-        if (field.initial) {
-            need(ColumnKind::Value, QString::number(*field.initial));
-            need(ColumnKind::Default, QString::number(*field.initial));
-        }
-        need(ColumnKind::Range, rangeText(field, effective(field, {})));
+        if (field.initial)
+            need(ColumnKind::Value, withMinus(QString::number(*field.initial)));
         const int marks = (field.doubt.isEmpty() ? 0 : 1) + (isLostAtPowerOff(table, field) ? 1 : 0);
         const int mark = marks * (NameMark + 4);
         QString whole = field.name;
@@ -95,7 +104,7 @@ void TableView::makeRoomFor(const ControlTable &table)
         width = std::max(width, std::min(name, WidestName));
     }
     // Nor the largest that fits into four bytes: few registers ever get there.
-    need(ColumnKind::Value, QString::number(-table.resolution()));
+    need(ColumnKind::Value, withMinus(QString::number(-table.resolution())));
 }
 
 void TableView::applyColumnWidths()

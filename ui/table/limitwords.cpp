@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "ui/table/limitwords.h"
+
+#include "core/table/indirect.h"
+#include "ui/common/texts.h"
+
+#include <QCoreApplication>
+
+namespace dynascope {
+namespace {
+
+struct LimitWords {
+    Q_DECLARE_TR_FUNCTIONS(LimitWords)
+};
+
+bool isAny(const Field &field, const EffectiveField &effective)
+{
+    return field.size == 4 && effective.minimum == smallestRaw(field) && effective.maximum == largestRaw(field);
+}
+
+QString numberText(const Physical &value)
+{
+    return withMinus(QString::number(value.value, 'f', value.decimals));
+}
+
+/// `text`, and the raw one behind it where that is another.
+QString withRaw(const QString &text, const QString &raw)
+{
+    return text == raw ? text : LimitWords::tr("%1 (raw %2)").arg(text, raw);
+}
+
+QString rawDefault(const Field &field)
+{
+    return field.initial ? withMinus(QString::number(*field.initial)) : QString();
+}
+
+std::vector<UnitPreferences> everyChoice()
+{
+    std::vector<UnitPreferences> all{
+        {AngleUnit::Degrees}, {AngleUnit::Radians}, {AngleUnit::Turns}, {AngleUnit::Pulses}};
+    UnitPreferences torque, raw;
+    torque.torque = true;
+    raw.raw = true;
+    all.push_back(torque);
+    all.push_back(raw);
+    return all;
+}
+
+/// Of a device fresh from the factory, and with each of its alternates.
+std::vector<EffectiveField> everyMeaning(const Field &field, const ControlTable &table)
+{
+    const auto factory = [&table](QStringView name) {
+        const Field *other = table.find(name);
+        return other ? other->initial : std::nullopt;
+    };
+    std::vector<EffectiveField> all{effective(field, factory)};
+    for (const Alternate &alternate : field.alternates) {
+        all.push_back(effective(field, [&](QStringView name) -> std::optional<std::int64_t> {
+            if (name == alternate.reg && !alternate.values.empty())
+                return alternate.values.front();
+            return factory(name);
+        }));
+    }
+    return all;
+}
+
+} // namespace
+
+QString rangeText(const Field &field, const EffectiveField &effective)
+{
+    if (!effective.minimum && !effective.maximum)
+        return {};
+    if (isAny(field, effective))
+        return LimitWords::tr("any");
+    const auto text = [](const std::optional<std::int64_t> &bound, const QString &from) {
+        return bound ? withMinus(QString::number(*bound)) : from.isEmpty() ? QString() : QStringLiteral("?");
+    };
+    return QStringLiteral("%1 … %2").arg(text(effective.minimum, effective.minimumFrom),
+                                         text(effective.maximum, effective.maximumFrom));
+}
+
+QString rangeText(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units)
+{
+    const QString raw = rangeText(field, effective);
+    const bool hasNames = !field.values.empty() || !field.bits.empty();
+    if (raw.isEmpty() || hasNames || isAny(field, effective) || effective.unit == Unit::None || units.raw)
+        return raw;
+    const QString unit = unitSymbol(effective, units);
+    if (effective.minimum && effective.maximum) {
+        const auto [low, high] = physicalRange(effective, resolution, *effective.minimum, *effective.maximum, units);
+        return QStringLiteral("%1 … %2 %3").arg(numberText(low), numberText(high), unit);
+    }
+    const auto text = [&](const std::optional<std::int64_t> &bound, const QString &from) {
+        return bound          ? numberText(physical(effective, resolution, *bound, units))
+            : from.isEmpty() ? QString()
+                             : QStringLiteral("?");
+    };
+    return QStringLiteral("%1 … %2 %3").arg(text(effective.minimum, effective.minimumFrom),
+                                            text(effective.maximum, effective.maximumFrom), unit);
+}
+
+QString rangeSource(const EffectiveField &effective)
+{
+    QStringList names;
+    for (const QString &name : {effective.minimumFrom, effective.maximumFrom}) {
+        if (!name.isEmpty() && !names.contains(name))
+            names << name;
+    }
+    if (names.isEmpty())
+        return {};
+    return names.size() == 1 ? LimitWords::tr("set by %1").arg(names.front())
+                             : LimitWords::tr("set by %1 and %2").arg(names.front(), names.back());
+}
+
+QString rangeToolTip(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units)
+{
+    const QString range =
+        withRaw(rangeText(field, effective, resolution, units), rangeText(field, effective));
+    const QString source = rangeSource(effective);
+    return source.isEmpty() || range.isEmpty() ? range : QStringLiteral("%1, %2").arg(range, source);
+}
+
+QString defaultText(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units)
+{
+    if (!field.initial || units.raw || !field.bits.empty())
+        return rawDefault(field); // the names of several bits are too much for a column
+    const QString name = meaning(field, *field.initial);
+    return name.isEmpty() ? withMinus(valueText(field, effective, resolution, *field.initial, units)) : name;
+}
+
+QString defaultToolTip(const Field &field, const EffectiveField &effective, int resolution,
+                       const UnitPreferences &units)
+{
+    if (!field.initial)
+        return {};
+    const QString named = meaning(field, *field.initial);
+    return withRaw(named.isEmpty() ? defaultText(field, effective, resolution, units) : named, rawDefault(field));
+}
+
+LimitTexts everyLimitText(const ControlTable &table)
+{
+    LimitTexts all;
+    for (const Field &field : table.fields()) {
+        if (indirectAddressNumber(field) > 1 || indirectDataNumber(field) > 1)
+            continue; // the first of them says it
+        for (const EffectiveField &now : everyMeaning(field, table)) {
+            for (const UnitPreferences &units : everyChoice()) {
+                all.ranges << rangeText(field, now, table.resolution(), units);
+                all.defaults << defaultText(field, now, table.resolution(), units);
+            }
+        }
+    }
+    for (QStringList *texts : {&all.ranges, &all.defaults})
+        texts->removeDuplicates();
+    return all;
+}
+
+} // namespace dynascope
