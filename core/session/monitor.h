@@ -34,7 +34,7 @@ public:
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
     /// Fields of long runs (indirect.h) that the grid shows of them; the others aren't polled.
-    void setUnfolded(const std::set<int> &fields);
+    void setUnfolded(const std::set<Watch> &fields);
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
@@ -59,7 +59,7 @@ private:
     std::set<Watch> m_watches;
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
-    std::set<int> m_unfolded;
+    std::set<Watch> m_unfolded;
     bool m_paused = false;
     QTimer m_replanTimer;
     struct SentPlan {

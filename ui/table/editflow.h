@@ -36,6 +36,7 @@ private:
     bool explainLock(const QModelIndex &cell, std::function<void()> then);
     void unlock();
     void resume();
+    bool isOnAll(const QModelIndex &cell) const;
     void openBits(const QModelIndex &cell);
     std::vector<Device *> targets(const QModelIndex &cell) const;
 

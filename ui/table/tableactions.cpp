@@ -21,7 +21,7 @@ TableActions tableActions(const Workbench &workbench)
     actions.isWatched = [&monitor](const Watch &watch) { return monitor.isWatched(watch); };
     actions.writeUnknown
         = [&commands](Device &device, int field, std::int64_t raw) { commands.writeUnknown(device, field, raw); };
-    actions.setUnfolded = [&monitor](const std::set<int> &fields) { monitor.setUnfolded(fields); };
+    actions.setUnfolded = [&monitor](const std::set<Watch> &fields) { monitor.setUnfolded(fields); };
     return actions;
 }
 

@@ -22,7 +22,7 @@ struct TableActions {
     /// A register that may only be tried (Field::mayBeTried), after a person has insisted.
     std::function<void(Device &, int field, std::int64_t raw)> writeUnknown = {};
     /// Which fields of long runs are in sight (Monitor::setUnfolded).
-    std::function<void(const std::set<int> &fields)> setUnfolded = {};
+    std::function<void(const std::set<Watch> &fields)> setUnfolded = {};
 };
 
 TableActions tableActions(const Workbench &workbench);

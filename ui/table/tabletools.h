@@ -20,12 +20,10 @@ public:
 
     void setDeviceCount(int count);
     QLineEdit *search() const { return m_search; }
-    QToolButton *editAll() const { return m_editAll; }
 
 signals:
     void filterChanged();
     void leaveSearch();            ///< back to the grid
-    void editAllToggled(bool on);
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
@@ -36,7 +34,6 @@ private:
     FieldFilterModel &m_filter;
     QLineEdit *m_search;
     QToolButton *m_different;
-    QToolButton *m_editAll;
 };
 
 } // namespace dynascope

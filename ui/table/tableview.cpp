@@ -23,7 +23,8 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Address: return 68;
     case ColumnKind::Value: return 70;
     case ColumnKind::Physical: return 164;
-    case ColumnKind::Device: return 156;
+    case ColumnKind::Device: return 132;
+    case ColumnKind::All: return 132;
     case ColumnKind::Default: return 66;
     case ColumnKind::Range: return 158;
     case ColumnKind::Access: return 58;
@@ -31,7 +32,9 @@ int defaultWidth(ColumnKind kind)
     return 80;
 }
 
-constexpr int WidestName = 256; ///< longer ones elide: there is more to see
+constexpr int WidestName = 256;  ///< longer ones elide: there is more to see
+constexpr int WidestValue = 184; ///< and longer values, which have a tool tip
+constexpr int ValueMark = 18;    ///< what a mark at the left of a value takes
 
 QColor selectionTint(const QPalette &palette)
 {
@@ -71,13 +74,28 @@ TableView::TableView(QWidget *parent)
     });
 }
 
+void TableView::makeRoomFor(const std::vector<const ControlTable *> &tables)
+{
+    m_needed.clear();
+    const ControlTable *last = nullptr;
+    for (const ControlTable *table : tables) {
+        if (table != last)
+            makeRoomFor(*table);
+        last = table;
+    }
+}
+
+void TableView::needRoom(ColumnKind kind, int width)
+{
+    int &known = m_needed[static_cast<int>(kind)];
+    known = std::max(known, width);
+}
+
 void TableView::makeRoomFor(const ControlTable &table)
 {
     const QFontMetrics digits(numberFont(font()));
-    m_needed.clear();
     const auto need = [&](ColumnKind kind, const QString &text) {
-        int &width = m_needed[static_cast<int>(kind)];
-        width = std::max(width, digits.horizontalAdvance(withMinus(text)) + 2 * CellMargin + 2);
+        needRoom(kind, digits.horizontalAdvance(withMinus(text)) + 2 * CellMargin + 2);
     };
     for (const Field &field : table.fields()) {
         if (field.initial) {
@@ -90,8 +108,13 @@ void TableView::makeRoomFor(const ControlTable &table)
         if (!field.suggested.isEmpty())
             whole += QStringLiteral("  %1?").arg(field.suggested);
         const int name = fontMetrics().horizontalAdvance(whole) + 2 * indentation() + CellMargin + 4 + mark;
-        int &width = m_needed[static_cast<int>(ColumnKind::Name)];
-        width = std::max(width, std::min(name, WidestName));
+        needRoom(ColumnKind::Name, std::min(name, WidestName));
+        for (const EnumValue &value : field.values) {
+            const int said = fontMetrics().horizontalAdvance(value.text) + 2 * CellMargin + 2;
+            needRoom(ColumnKind::Physical, std::min(said, WidestValue));
+            needRoom(ColumnKind::Device, std::min(said + ValueMark, WidestValue));
+            needRoom(ColumnKind::All, std::min(said, WidestValue));
+        }
     }
     // Nor the largest that fits into four bytes: few registers ever get there.
     need(ColumnKind::Value, QString::number(-table.resolution()));
@@ -124,7 +147,7 @@ QModelIndex TableView::editTarget(const QModelIndex &index) const
     // Names are picked by name: the raw column is too narrow for them.
     const bool byName = !field->values.empty() || !field->bits.empty();
     const ColumnKind kind = kindAt(index);
-    if (kind == ColumnKind::Device || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
+    if (isComparingKind(kind) || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
         if (kind != ColumnKind::Physical || index.data(HasMeaningRole).toBool())
             return index;
     }
@@ -134,7 +157,8 @@ QModelIndex TableView::editTarget(const QModelIndex &index) const
         const QModelIndex there = index.siblingAtColumn(column);
         if (kindAt(there) == wanted)
             return there;
-        if (!fallback.isValid() && isValueKind(kindAt(there)))
+        // Of several devices the first: what goes to all is edited only where that is meant.
+        if (!fallback.isValid() && isValueKind(kindAt(there)) && kindAt(there) != ColumnKind::All)
             fallback = there;
     }
     return fallback;
