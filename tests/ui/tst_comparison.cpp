@@ -34,8 +34,8 @@ private slots:
     void everyRegisterOfEveryTableHasItsRow()
     {
         // XM430, XL430 (no current), XL-320 (another family), an unknown model (bytes), two firmwares of XL330
-        std::vector<ControlTablePtr> kept{tableOf(1020, 45), tableOf(1060, 45), tableOf(350, 20), tableOf(9999, 1),
-                                          tableOf(1200, 51), tableOf(1200, 53)};
+        std::vector<ControlTablePtr> kept{tableOf(1020, 45), tableOf(1060, 45), tableOf(350, 20),
+                                          tableOf(9999, 1),  tableOf(1200, 51), tableOf(1200, 53)};
         std::vector<const ControlTable *> tables;
         for (const ControlTablePtr &table : kept)
             tables.push_back(table.get());
@@ -88,13 +88,22 @@ private slots:
     {
         QTest::addColumn<QString>("name");
         QTest::addColumn<bool>("counts");
-        const std::pair<const char *, bool> rows[]{
-            {"Operating Mode", true},   {"Position P Gain", true},   {"Baud Rate", true},
-            {"Return Delay Time", true}, {"Profile Velocity", true}, {"Indirect Address 1", true},
-            {"ID", false},              {"Homing Offset", false},    {"Goal Position", false},
-            {"Goal Current", false},    {"Torque Enable", false},    {"LED", false},
-            {"Present Position", false}, {"Moving", false},          {"Hardware Error Status", false},
-            {"Indirect Data 1", false}};
+        const std::pair<const char *, bool> rows[]{{"Operating Mode", true},
+                                                   {"Position P Gain", true},
+                                                   {"Baud Rate", true},
+                                                   {"Return Delay Time", true},
+                                                   {"Profile Velocity", true},
+                                                   {"Indirect Address 1", true},
+                                                   {"ID", false},
+                                                   {"Homing Offset", false},
+                                                   {"Goal Position", false},
+                                                   {"Goal Current", false},
+                                                   {"Torque Enable", false},
+                                                   {"LED", false},
+                                                   {"Present Position", false},
+                                                   {"Moving", false},
+                                                   {"Hardware Error Status", false},
+                                                   {"Indirect Data 1", false}};
         for (const auto &[name, counts] : rows)
             QTest::newRow(name) << QString::fromLatin1(name) << counts;
     }

@@ -8,6 +8,7 @@
 #include <QAction>
 #include <QClipboard>
 #include <QGuiApplication>
+#include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
@@ -61,8 +62,9 @@ private slots:
         QStringList titles;
         for (int column = 0; column < model->columnCount(); ++column)
             titles << model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-        const QStringList expected{QStringLiteral("Name"), QStringLiteral("Plot"), QStringLiteral("Address"),
-                                   QStringLiteral("All"), QStringLiteral("XM430-W350 #1"), QStringLiteral("Elbow #2"),
+        const QStringList expected{QStringLiteral("Name"),          QStringLiteral("Plot"),
+                                   QStringLiteral("Address"),       QStringLiteral("All"),
+                                   QStringLiteral("XM430-W350 #1"), QStringLiteral("Elbow #2"),
                                    QStringLiteral("XL430-W250 #3"), QStringLiteral("Access")};
         QCOMPARE(titles, expected);
         QCOMPARE(at("Position P Gain", 1).data().toString(), QStringLiteral("800"));
@@ -112,7 +114,8 @@ private slots:
         const QModelIndex name = m_window->cell(QStringLiteral("Indirect Data 1"), ColumnKind::Address);
         QCOMPARE(name.data().toString(), QStringLiteral("208 …"));
         const QString said = name.data(Qt::ToolTipRole).toString();
-        QVERIFY2(said.contains(QStringLiteral("51: 208")) && said.contains(QStringLiteral("53: 224")), qPrintable(said));
+        QVERIFY2(said.contains(QStringLiteral("51: 208")) && said.contains(QStringLiteral("53: 224")),
+                 qPrintable(said));
         QVERIFY(m_window->view->model()->setData(all("Indirect Data 1"), 7, Qt::EditRole));
         QCOMPARE(m_fixture->written(),
                  (QStringList{QStringLiteral("7 Indirect Data 1=7"), QStringLiteral("8 Indirect Data 1=7")}));
@@ -173,12 +176,12 @@ private slots:
         QTest::addColumn<int>("raw");
         QTest::addColumn<int>("torqueOn"); // of which device; 0: of none
         QTest::addColumn<QString>("who");
-        QTest::newRow("no such register") << QList<int>{1, 3} << QStringLiteral("Current Limit") << 5 << 0
-                                          << QStringLiteral("XL430-W250 #3");
-        QTest::newRow("out of one's range") << QList<int>{4, 1} << QStringLiteral("Temperature Limit") << 120 << 0
-                                            << QStringLiteral("XM430-W350 #1");
-        QTest::newRow("locked by torque") << QList<int>{1, 2} << QStringLiteral("Max Position Limit") << 100 << 2
-                                          << QStringLiteral("XM430-W350 #2");
+        QTest::newRow("no such register")
+            << QList<int>{1, 3} << QStringLiteral("Current Limit") << 5 << 0 << QStringLiteral("XL430-W250 #3");
+        QTest::newRow("out of one's range")
+            << QList<int>{4, 1} << QStringLiteral("Temperature Limit") << 120 << 0 << QStringLiteral("XM430-W350 #1");
+        QTest::newRow("locked by torque")
+            << QList<int>{1, 2} << QStringLiteral("Max Position Limit") << 100 << 2 << QStringLiteral("XM430-W350 #2");
     }
 
     void refusesAsAWhole()
@@ -309,6 +312,23 @@ private slots:
         QCOMPARE(QGuiApplication::clipboard()->text(), QStringLiteral("800"));
     }
 
+    void namesStayInSight()
+    {
+        m_window->panel.resize(600, 700);
+        show({1, 2, 3, 4});
+        auto *names = m_window->find<QWidget>("frozenNames");
+        QVERIFY(!names->isVisible());
+        m_window->view->horizontalScrollBar()->setValue(300);
+        QVERIFY(names->isVisible());
+        const QModelIndex cell = m_window->cell(QStringLiteral("Operating Mode"), ColumnKind::Name);
+        m_window->view->verticalScrollBar()->setValue(0);
+        const QPoint at(20, m_window->view->visualRect(cell).center().y() + m_window->view->header()->height());
+        QTest::mouseClick(names, Qt::LeftButton, {}, at);
+        QCOMPARE(m_window->view->currentIndex(), cell);
+        m_window->view->horizontalScrollBar()->setValue(0);
+        QVERIFY(!names->isVisible());
+    }
+
     void manyAreBoundedAndSaid()
     {
         for (int id = 10; id < 50; ++id)
@@ -332,8 +352,8 @@ private:
         found.id = static_cast<std::uint8_t>(id);
         found.modelNumber = static_cast<std::uint16_t>(model);
         found.firmware = firmware;
-        m_fixture->devices.push_back(std::make_unique<Device>(static_cast<DeviceKey>(id), nullptr,
-                                                              TableFixture::catalog().findOrRaw(model, firmware), found));
+        m_fixture->devices.push_back(std::make_unique<Device>(
+            static_cast<DeviceKey>(id), nullptr, TableFixture::catalog().findOrRaw(model, firmware), found));
         return m_fixture->devices.back().get();
     }
 
@@ -379,10 +399,7 @@ private:
         return menu ? menu->findChild<QAction *>(QString::fromLatin1(action)) : nullptr;
     }
 
-    void closeMenu()
-    {
-        delete m_window->find<QMenu>("tableMenu");
-    }
+    void closeMenu() { delete m_window->find<QMenu>("tableMenu"); }
 
     QStringList shownRows() const
     {

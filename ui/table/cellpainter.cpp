@@ -76,6 +76,16 @@ void paintMixed(QPainter *painter, const QStyleOptionViewItem &option, const QSt
 
 } // namespace
 
+QColor selectionTint(const QPalette &palette)
+{
+    const QColor base = palette.color(QPalette::Active, QPalette::Base);
+    const ThemeColors &theme = colors(palette);
+    const float share = theme.dark ? 0.22F : 0.13F;
+    return QColor::fromRgbF(base.redF() + (theme.accent.redF() - base.redF()) * share,
+                            base.greenF() + (theme.accent.greenF() - base.greenF()) * share,
+                            base.blueF() + (theme.accent.blueF() - base.blueF()) * share);
+}
+
 int unitLaneWidth(const QFont &font)
 {
     const QFontMetrics metrics(font);

@@ -12,8 +12,7 @@
 namespace dynascope {
 namespace {
 
-struct ComparisonText
-{
+struct ComparisonText {
     Q_DECLARE_TR_FUNCTIONS(Comparison)
 };
 
@@ -33,7 +32,7 @@ bool sameBits(const std::vector<BitField> &one, const std::vector<BitField> &oth
 bool sameUnit(const EffectiveField &one, const EffectiveField &other)
 {
     return one.unit == other.unit && one.scale == other.scale && one.directionBit == other.directionBit
-        && one.turns == other.turns;
+           && one.turns == other.turns;
 }
 
 bool isAngle(const EffectiveField &effective)
@@ -51,7 +50,7 @@ Error elsewhere(const Field &field)
 bool isSharedSetting(const Field &field)
 {
     return field.isWritable() && !isGoal(field) && indirectDataNumber(field) == 0 && field.name != u"ID"
-        && field.name != u"Homing Offset" && field.name != u"Torque Enable" && field.name != u"LED";
+           && field.name != u"Homing Offset" && field.name != u"Torque Enable" && field.name != u"LED";
 }
 
 bool meanTheSame(const ComparedRegister &one, const ComparedRegister &other)
@@ -59,8 +58,8 @@ bool meanTheSame(const ComparedRegister &one, const ComparedRegister &other)
     if (one.field == other.field && one.effective == other.effective)
         return true;
     return sameNames(one.field->values, other.field->values) && sameBits(one.field->bits, other.field->bits)
-        && sameUnit(one.effective, other.effective)
-        && (!isAngle(one.effective) || one.resolution == other.resolution);
+           && sameUnit(one.effective, other.effective)
+           && (!isAngle(one.effective) || one.resolution == other.resolution);
 }
 
 bool holdDifferent(const ComparedRegister &one, const ComparedRegister &other)
@@ -76,12 +75,11 @@ Result<std::int64_t> carriedOver(const ComparedRegister &from, std::int64_t raw,
         const auto named = std::ranges::find(to.field->values, name, &EnumValue::text);
         if (!name.isEmpty() && named != to.field->values.end())
             there = named->value;
-        else if (!from.field->values.empty() || !to.field->values.empty()
-                 || !sameBits(from.field->bits, to.field->bits) || from.effective.unit != to.effective.unit)
+        else if (!from.field->values.empty() || !to.field->values.empty() || !sameBits(from.field->bits, to.field->bits)
+                 || from.effective.unit != to.effective.unit)
             return tl::unexpected(elsewhere(*to.field));
         else
-            there = rawFromPhysical(to.effective, to.resolution,
-                                    physical(from.effective, from.resolution, raw).value);
+            there = rawFromPhysical(to.effective, to.resolution, physical(from.effective, from.resolution, raw).value);
     }
     const Result<void> allowed = checkRange(*to.field, to.effective, there, to.resolution);
     return allowed ? Result<std::int64_t>(there) : tl::unexpected(allowed.error());

@@ -42,7 +42,8 @@ bool EditFlow::gate(const QModelIndex &cell)
     const bool ofAll = kindAt(cell) == ColumnKind::All;
     if (!absent.isEmpty() || (ofAll && isProcedureField(*field))) {
         forget();
-        m_bar.showReason(absent.isEmpty() ? tr("%1 is changed for one device at a time.").arg(field->name) : absent, {});
+        const QString one = tr("%1 is changed for one device at a time.").arg(field->name);
+        m_bar.showReason(absent.isEmpty() ? one : absent, {});
         return false;
     }
     if (isProcedureField(*field)) {

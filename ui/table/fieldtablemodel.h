@@ -13,8 +13,8 @@
 namespace dynascope {
 
 /// The control tables of devices: groups, and in them one row per register, by its name. Raw values only;
-/// FieldWordsModel says them in words. One device: a column for its raw value and one for what it means; several, of any
-/// models: one column each, and in front of them one for all. GUI thread.
+/// FieldWordsModel says them in words. One device: a column for its raw value and one for what it means; several, of
+/// any models: one column each, and in front of them one for all. GUI thread.
 ///
 /// What devices report is collected and told once a frame, as a few ranges; while not live not at all, until
 /// setLive(true).
@@ -58,7 +58,8 @@ public:
     Qt::ItemFlags flags(const QModelIndex &index) const override;
     /// EditRole: a raw value, which is written, not shown: the servo's answer is. Nothing is sent to a device that has
     /// it already. In the column for all it is what the first device that has the register calls it; each gets what
-    /// means that, or, where one can't be written, none anything: refused(). CheckStateRole in the plot's column: plotRequested() or unplotRequested().
+    /// means that, or, where one can't be written, none anything: refused(). CheckStateRole in the plot's column:
+    /// plotRequested() or unplotRequested().
     bool setData(const QModelIndex &index, const QVariant &value, int role) override;
     QStringList mimeTypes() const override;
     QMimeData *mimeData(const QModelIndexList &indexes) const override;

@@ -76,7 +76,8 @@ bool FieldTableModel::writeAll(int row, std::int64_t raw)
     if (reasons.isEmpty())
         return write(row, wanted);
     emit refused(tr("Nothing was written to any of the %1 devices. %2.")
-                     .arg(m_devices.size()).arg(reasons.join(QStringLiteral("; "))));
+                     .arg(m_devices.size())
+                     .arg(reasons.join(QStringLiteral("; "))));
     return false;
 }
 

@@ -72,8 +72,8 @@ QVariant FieldTableModel::valueData(int row, int device, int role) const
     case ErrorRole: return value.error;
     case FadeRole: return m_tracker.fade(device, row);
     case PendingRole:
-        return value.pending && m_tracker.showsPending(device, row)
-            ? QVariant(static_cast<qlonglong>(*value.pending)) : QVariant();
+        return value.pending && m_tracker.showsPending(device, row) ? QVariant(static_cast<qlonglong>(*value.pending))
+                                                                    : QVariant();
     case LockRole: {
         const QString none = absence(row, device);
         return none.isEmpty() ? deviceAt(device).lockReason(m_rows.fieldOf(row, device), true) : none;
@@ -116,7 +116,9 @@ QString FieldTableModel::absence(int row, int device) const
         return {};
     const Device &of = deviceAt(device);
     return tr("Not on this model: %1 with firmware %2 has no %3.")
-        .arg(of.displayName()).arg(of.firmware()).arg(field(row, device).name);
+        .arg(of.displayName())
+        .arg(of.firmware())
+        .arg(field(row, device).name);
 }
 
 /// Any two of those that have it, whether or not it is a setting.
@@ -148,7 +150,7 @@ bool FieldTableModel::differs(int row, int device) const
 {
     const int first = m_rows.deviceWith(row);
     return device != first && m_rows.fieldOf(row, device) >= 0 && isSharedSetting(field(row, device))
-        && holdDifferent(compared(row, first), compared(row, device));
+           && holdDifferent(compared(row, first), compared(row, device));
 }
 
 bool FieldTableModel::isChangedFromDefault(int row, int device) const

@@ -16,7 +16,7 @@ public:
     int count() const { return m_count; }
     int fieldOf(int row, int device) const; ///< index in that device's table; −1: it has no such register
     int rowOf(int device, int field) const;
-    int deviceWith(int row, int preferred = 0) const; ///< `preferred` where it has the register, else the first that has
+    int deviceWith(int row, int preferred = 0) const; ///< `preferred` if it has the register, else the first that has
     bool isOnAll(int row) const;
     const std::vector<FieldGroup> &groups() const { return m_groups; } ///< `fields` are rows
     /// Registers that others take range, unit, meaning or lock from, in any of the tables.

@@ -11,6 +11,7 @@ target_sources(dynascope_ui PRIVATE
     table/fieldtablemodel.cpp table/fieldtablemodel.h
     table/fieldtablemodel_edit.cpp table/fieldtablemodel_updates.cpp table/fieldtablemodel_values.cpp
     table/fieldwordsmodel.cpp table/fieldwordsmodel.h
+    table/frozennames.cpp table/frozennames.h
     table/goalbar.cpp table/goalbar.h
     table/goalslider.cpp table/goalslider.h
     table/helppanel.cpp table/helppanel.h

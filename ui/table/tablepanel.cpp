@@ -169,8 +169,8 @@ void TablePanel::addShortcuts()
 
 void TablePanel::setDevices(const std::vector<Device *> &devices)
 {
-    const std::vector<Device *> shown(devices.begin(),
-                                      devices.begin() + static_cast<std::ptrdiff_t>(std::min(devices.size(), MostDevices)));
+    std::vector<Device *> shown = devices;
+    shown.resize(std::min(devices.size(), MostDevices));
     if (shown == m_model->devices() && !shown.empty())
         return;
     const Field *current = valueCell().data(FieldDataRole).value<const Field *>();
@@ -244,7 +244,8 @@ void TablePanel::currentChanged()
     }
     std::vector<Device *> targets = m_model->targets(cell.isValid() ? cell.column() : 0);
     // One slider stands at raw values, which mean the same only in one table.
-    if (!std::ranges::all_of(targets, [&](const Device *device) { return &device->table() == &targets.front()->table(); }))
+    const auto isOther = [&](const Device *device) { return &device->table() != &targets.front()->table(); };
+    if (std::ranges::any_of(targets, isOther))
         targets.clear();
     const bool several = m_model->devices().size() > 1;
     m_goals->setDevices(targets, !several ? QString()

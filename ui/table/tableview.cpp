@@ -5,6 +5,7 @@
 #include "ui/common/theme.h"
 #include "ui/table/cellpainter.h"
 #include "ui/table/fieldwordsmodel.h"
+#include "ui/table/frozennames.h"
 #include "ui/table/tableheader.h"
 
 #include <QDrag>
@@ -34,17 +35,8 @@ int defaultWidth(ColumnKind kind)
 
 constexpr int WidestName = 256;  ///< longer ones elide: there is more to see
 constexpr int WidestValue = 184; ///< and longer values, which have a tool tip
+constexpr int WidestOfMany = 152; ///< of one device among several: more of them are to be seen at once
 constexpr int ValueMark = 18;    ///< what a mark at the left of a value takes
-
-QColor selectionTint(const QPalette &palette)
-{
-    const QColor base = palette.color(QPalette::Active, QPalette::Base);
-    const ThemeColors &theme = colors(palette);
-    const float share = theme.dark ? 0.22F : 0.13F;
-    return QColor::fromRgbF(base.redF() + (theme.accent.redF() - base.redF()) * share,
-                            base.greenF() + (theme.accent.greenF() - base.greenF()) * share,
-                            base.blueF() + (theme.accent.blueF() - base.blueF()) * share);
-}
 
 } // namespace
 
@@ -67,6 +59,7 @@ TableView::TableView(QWidget *parent)
     setIndentation(16);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     setHeader(new TableHeader(this)); // the view owns it
+    new FrozenNames(*this);           // and this
     connect(header(), &QHeaderView::sectionResized, this, [this](int section, int, int size) {
         const bool isLast = section == header()->count() - 1;
         if (!m_applying && !isLast && model())
@@ -112,8 +105,8 @@ void TableView::makeRoomFor(const ControlTable &table)
         for (const EnumValue &value : field.values) {
             const int said = fontMetrics().horizontalAdvance(value.text) + 2 * CellMargin + 2;
             needRoom(ColumnKind::Physical, std::min(said, WidestValue));
-            needRoom(ColumnKind::Device, std::min(said + ValueMark, WidestValue));
-            needRoom(ColumnKind::All, std::min(said, WidestValue));
+            needRoom(ColumnKind::Device, std::min(said + ValueMark, WidestOfMany));
+            needRoom(ColumnKind::All, std::min(said, WidestOfMany));
         }
     }
     // Nor the largest that fits into four bytes: few registers ever get there.
