@@ -322,16 +322,11 @@ LineSession *MainWindow::shownLine() const
 
 void MainWindow::onSelection()
 {
-    std::vector<Device *> devices = m_devices->selectedDevices();
-    const std::size_t selected = devices.size();
-    // The table shows one model at a time: that of the first.
-    std::erase_if(devices, [first = devices.empty() ? nullptr : devices.front()](const Device *device) {
-        return &device->table() != &first->table();
-    });
+    const std::vector<Device *> devices = m_devices->selectedDevices();
     if (LineSession *line = m_devices->selectedLine())
         m_bar->showLine(*line);
     m_table->setDevices(devices);
-    m_table->setSelected(selected);
+    m_table->setSelected(devices.size());
     m_workbench.monitor.select(devices);
     m_firstRead->show(devices);
 }

@@ -306,13 +306,21 @@ void Commands::finishTorque(const TorqueJob &job, const Result<std::vector<Writt
         job.outcome->done(job.outcome->result);
 }
 
+int identifyField(const ControlTable &table)
+{
+    const int led = table.indexOf(Known::Led);
+    const int blue = led >= 0 ? led : table.indexOf(u"LED Blue");
+    return blue >= 0 && table.fields()[static_cast<std::size_t>(blue)].isWritable() ? blue : -1;
+}
+
 void Commands::setLed(Device &device, bool on, Done done)
 {
-    const int led = device.table().indexOf(Known::Led);
-    if (led < 0) {
+    const int led = identifyField(device.table());
+    if (led < 0)
         return refuse(&device, {ErrorKind::NotSupported, tr("%1 has no LED").arg(device.displayName())}, done);
-    }
-    writeField(device, led, on ? 1 : 0, std::move(done));
+    const bool isColour = led != device.table().indexOf(Known::Led);
+    const std::int64_t bright = isColour ? device.effective(led).maximum.value_or(255) : 1;
+    writeField(device, led, on ? bright : 0, std::move(done));
 }
 
 } // namespace dynascope

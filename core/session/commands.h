@@ -33,7 +33,7 @@ public:
     void writeUnknown(Device &device, int fieldIndex, std::int64_t raw, Done done = {});
     void readAll(Device &device, Done done = {});
     void setTorque(const std::vector<Device *> &devices, bool on, Done done = {});
-    void setLed(Device &device, bool on, Done done = {});
+    void setLed(Device &device, bool on, Done done = {}); ///< identifyField(), a colour as bright as it gets
     void reboot(Device &device, Done done = {});
     void factoryReset(Device &device, ResetOption option, Done done = {});
     /// One after the other, each found again before the next; refused before the first where two would end at one place.
@@ -102,6 +102,9 @@ private:
     bool m_stopped = false;
     std::map<FieldKey, std::optional<Waiting>> m_writes; ///< on their way, each with the newest that waits behind it
 };
+
+/// The register that Identify switches: LED or, where each colour has one, LED Blue (red is the alarm's); −1: none.
+int identifyField(const ControlTable &table);
 
 /// Of the device's table.
 std::vector<Span> spansOf(const Device &device, const std::function<bool(const Field &)> &wanted, int longest = 128);

@@ -91,7 +91,7 @@ void Monitor::select(const std::vector<Device *> &devices)
     replanSoon();
 }
 
-void Monitor::setUnfolded(const std::set<int> &fields)
+void Monitor::setUnfolded(const std::set<Watch> &fields)
 {
     m_unfolded = fields;
     replanSoon();
@@ -139,7 +139,10 @@ void Monitor::replan()
             if (m_paused)
                 break;
             const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
-            DeviceWatches watches{device.get(), {}, isSelected, isSelected ? m_unfolded : std::set<int>(), {}};
+            DeviceWatches watches{device.get(), {}, isSelected, {}, {}};
+            for (auto at = m_unfolded.lower_bound({device->key(), 0});
+                 isSelected && at != m_unfolded.end() && at->device == device->key(); ++at)
+                watches.unfolded.insert(at->field);
             if (const auto signs = m_signs.find(device->key()); signs != m_signs.end())
                 watches.signs = signs->second;
             for (auto at = m_watches.lower_bound({device->key(), 0});

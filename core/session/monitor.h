@@ -34,7 +34,7 @@ public:
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
     /// Fields of long runs (indirect.h) that the grid shows of them; the others aren't polled.
-    void setUnfolded(const std::set<int> &fields);
+    void setUnfolded(const std::set<Watch> &fields);
     /// What is read of this device at least each 10 s, whatever else is: what tells of a restart.
     void setSigns(DeviceKey device, const std::set<int> &fields);
 
@@ -61,7 +61,7 @@ private:
     std::set<Watch> m_watches;
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
-    std::set<int> m_unfolded;
+    std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back
     bool m_paused = false;
     QTimer m_replanTimer;

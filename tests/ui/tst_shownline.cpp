@@ -175,18 +175,6 @@ private slots:
         QVERIFY(!find<QPushButton>("lockBarButton")->isVisible()); // turning torque off is no way
     }
 
-    void aTableOfFewerThanAreSelectedSaysSo()
-    {
-        connectTo(QStringLiteral("sim"), 3);
-        auto *label = find<ElidedLabel>("othersLabel");
-        QVERIFY(!label->isVisible());
-        find<QTreeView>("deviceTree")->selectAll();
-        QTRY_VERIFY(label->isVisible());
-        QCOMPARE(label->text(), QStringLiteral("1 of 3 selected: the others have another control table"));
-        m_window->findChild<DevicePanel *>()->selectDevice(m_bench->device(1, 1000000));
-        QVERIFY(!label->isVisible());
-    }
-
     void whatWasNotWrittenStaysToBeRead()
     {
         connectTo(QStringLiteral("sim"), 3);

@@ -166,8 +166,8 @@ private slots:
     {
         TableFixture fixture;
         TableActions actions = fixture.actions();
-        std::set<int> unfolded{-1};
-        actions.setUnfolded = [&](const std::set<int> &fields) { unfolded = fields; };
+        std::set<Watch> unfolded{{0, -1}};
+        actions.setUnfolded = [&](const std::set<Watch> &fields) { unfolded = fields; };
         TablePanel panel(actions);
         panel.show();
         Device *device = fixture.add(1);
@@ -178,10 +178,10 @@ private slots:
             view->model()->match(view->model()->index(0, 0), Qt::DisplayRole, QStringLiteral("Indirect data"));
         view->expand(data.front());
         QCOMPARE(unfolded.size(), std::size_t(56));
-        QVERIFY(unfolded.contains(TableFixture::field(device, u"Indirect Data 56")));
+        QVERIFY(unfolded.contains({device->key(), TableFixture::field(device, u"Indirect Data 56")}));
         // A search shows a few of them.
         panel.findChild<QLineEdit *>(QStringLiteral("tableSearch"))->setText(QStringLiteral("indirect data 30"));
-        QVERIFY(unfolded.contains(TableFixture::field(device, u"Indirect Data 30")));
+        QVERIFY(unfolded.contains({device->key(), TableFixture::field(device, u"Indirect Data 30")}));
         QVERIFY(unfolded.size() < 5);
         panel.findChild<QLineEdit *>(QStringLiteral("tableSearch"))->clear();
         view->collapse(

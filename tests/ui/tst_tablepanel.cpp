@@ -146,7 +146,9 @@ private slots:
         edit(QStringLiteral("500"));
         QCOMPARE(fixture.written(), QStringList{QStringLiteral("2 Position P Gain=500")});
         fixture.writes.clear();
-        window.find<QToolButton>("editAll")->click();
+        QTest::keyClick(window.view, Qt::Key_Left);
+        QTest::keyClick(window.view, Qt::Key_Left);
+        QCOMPARE(kindAt(window.view->currentIndex()), ColumnKind::All);
         edit(QStringLiteral("600"));
         const QStringList expected{QStringLiteral("1 Position P Gain=600"), QStringLiteral("2 Position P Gain=600"),
                                    QStringLiteral("3 Position P Gain=600")};

@@ -140,7 +140,8 @@ void DeviceActions::update()
     Device *one = single();
     if (!this->devices().empty()) // it may have moved since it was selected
         m_baudRate = this->devices().front()->baudRate();
-    m_identify->setEnabled(has("LED"));
+    m_identify->setEnabled(std::ranges::any_of(
+        devices, [](const Device *device) { return identifyField(device->table()) >= 0; }));
     m_torqueOn->setEnabled(has("Torque Enable")); // also while STOP holds: the refusal says what to do
     m_torqueOff->setEnabled(has("Torque Enable"));
     m_readAll->setEnabled(any);
@@ -216,9 +217,13 @@ void DeviceActions::confirm(const QString &title, const QString &text, const std
 void DeviceActions::identify()
 {
     const std::vector<Device *> devices = reachable();
-    const bool allOn =
-        std::ranges::all_of(devices, [](const Device *device) { return device->raw(u"LED").value_or(0) != 0; });
-    for (Device *device : devices)
+    std::vector<Device *> lit;
+    std::ranges::copy_if(devices, std::back_inserter(lit),
+                         [](const Device *device) { return identifyField(device->table()) >= 0; });
+    const bool allOn = std::ranges::all_of(lit, [](const Device *device) {
+        return device->value(identifyField(device->table())).raw.value_or(0) != 0;
+    });
+    for (Device *device : lit)
         m_workbench.commands.setLed(*device, !allOn);
 }
 

@@ -16,7 +16,22 @@
 #include <QToolButton>
 #include <QTreeView>
 
+#include <algorithm>
+
 namespace dynascope {
+
+namespace {
+
+/// Rows from the root on: compares as what stands above what.
+std::vector<int> placeInTree(const QModelIndex &index)
+{
+    std::vector<int> rows;
+    for (QModelIndex at = index; at.isValid(); at = at.parent())
+        rows.insert(rows.begin(), at.row());
+    return rows;
+}
+
+} // namespace
 
 DevicePanel::DevicePanel(const Workbench &workbench, QWidget *parent)
     : QWidget(parent)
@@ -181,8 +196,9 @@ void DevicePanel::updateEmptyView()
 std::vector<Device *> DevicePanel::selectedDevices() const
 {
     std::vector<Device *> devices;
-    const QModelIndexList rows = m_tree->selectionModel()->selectedRows();
-    for (const QModelIndex &index : rows) {
+    QModelIndexList rows = m_tree->selectionModel()->selectedRows();
+    std::ranges::sort(rows, {}, placeInTree); // they come as they were selected
+    for (const QModelIndex &index : std::as_const(rows)) {
         if (Device *device = m_model->device(index))
             devices.push_back(device);
     }

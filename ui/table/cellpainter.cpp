@@ -53,7 +53,38 @@ void paintMark(QPainter *painter, QRect &rect, const QModelIndex &index, const I
     rect.setLeft(mark.right() + 4);
 }
 
+/// No register: an empty cell that looks as if nothing could stand there.
+void paintAbsent(QPainter *painter, const QStyleOptionViewItem &option)
+{
+    QColor line = colors(option.palette).border;
+    line.setAlphaF(0.55F);
+    painter->fillRect(option.rect, QBrush(line, Qt::BDiagPattern));
+}
+
+/// They differ: in words, and not looking like a value.
+void paintMixed(QPainter *painter, const QStyleOptionViewItem &option, const QString &text)
+{
+    QFont italic = option.font;
+    italic.setItalic(true);
+    painter->save();
+    painter->setFont(italic);
+    painter->setPen(inkFor(option).dimmed);
+    painter->drawText(option.rect.adjusted(CellMargin, 0, -CellMargin, 0),
+                      Qt::AlignLeft | Qt::AlignVCenter | Qt::TextSingleLine, text);
+    painter->restore();
+}
+
 } // namespace
+
+QColor selectionTint(const QPalette &palette)
+{
+    const QColor base = palette.color(QPalette::Active, QPalette::Base);
+    const ThemeColors &theme = colors(palette);
+    const float share = theme.dark ? 0.22F : 0.13F;
+    return QColor::fromRgbF(base.redF() + (theme.accent.redF() - base.redF()) * share,
+                            base.greenF() + (theme.accent.greenF() - base.greenF()) * share,
+                            base.blueF() + (theme.accent.blueF() - base.blueF()) * share);
+}
 
 int unitLaneWidth(const QFont &font)
 {
@@ -78,6 +109,10 @@ void paintCell(QPainter *painter, const QStyleOptionViewItem &option)
 
 void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index)
 {
+    if (!index.data(AbsentRole).toString().isEmpty())
+        return paintAbsent(painter, option);
+    if (index.data(MixedRole).toBool())
+        return paintMixed(painter, option, index.data().toString());
     painter->save();
     const Ink ink = inkFor(option);
     const auto state = static_cast<FieldState>(index.data(StateRole).toInt());
@@ -97,7 +132,7 @@ void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QMo
     const QColor textColor = dim ? ink.dimmed : ink.text;
 
     QFont words = option.font;
-    words.setBold(index.data(DiffersRole).toBool());
+    words.setBold(kind == ColumnKind::Device && index.data(DiffersRole).toBool());
     QFont digits = numberFont(option.font);
     digits.setBold(words.bold());
     if (whole.isEmpty() && state == FieldState::Unknown && kind != ColumnKind::Physical) {

@@ -15,6 +15,9 @@ inline constexpr int NameMark = 14; ///< how large a mark beside a name is: of w
 /// How wide the lane is in which units stand, so that the numbers left of it line up whatever their unit.
 int unitLaneWidth(const QFont &font);
 
+/// Of selected rows, in place of the full accent: units, marks and fading stay readable on it.
+QColor selectionTint(const QPalette &palette);
+
 /// The text of one value: number right, unit dimmed, what is being written, a mark where the last try failed or where
 /// this device differs from the others. Knows roles only.
 void paintValue(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index);

@@ -40,6 +40,14 @@ bool EditFlow::gate(const QModelIndex &cell)
     const Field *field = fieldAt(cell);
     if (!field || !isEditable(*field))
         return false;
+    const QString absent = cell.data(AbsentRole).toString();
+    const bool ofAll = kindAt(cell) == ColumnKind::All;
+    if (!absent.isEmpty() || (ofAll && isProcedureField(*field))) {
+        forget();
+        const QString one = tr("%1 is changed for one device at a time.").arg(field->name);
+        m_bar.showReason(absent.isEmpty() ? one : absent, {});
+        return false;
+    }
     if (isProcedureField(*field)) {
         Device *device = m_model.devices()[static_cast<std::size_t>(m_model.columnAt(cell.column()).device)];
         if (field->name == u"ID")
@@ -87,7 +95,7 @@ bool EditFlow::explainLock(const QModelIndex &cell, std::function<void()> then)
     const bool connected = std::ranges::none_of(devices, [](const Device *device) {
         return device->line() && device->line()->state() != BusThread::State::Open;
     });
-    const bool byTorque = connected && field->needsTorqueOff()
+    const bool byTorque = connected && field->needsTorqueOff() && isOnAll(cell)
         && std::ranges::any_of(devices, [](const Device *device) { return device->isTorqueOn(); });
     m_locked = cell;
     m_then = std::move(then);
@@ -105,6 +113,18 @@ void EditFlow::editSafely()
     forget();
     if (then)
         then();
+}
+
+/// Every device that an edit here writes to has such a register.
+bool EditFlow::isOnAll(const QModelIndex &cell) const
+{
+    if (kindAt(cell) != ColumnKind::All)
+        return true;
+    for (int column = 0; column < m_view.model()->columnCount(); ++column) {
+        if (!cell.siblingAtColumn(column).data(AbsentRole).toString().isEmpty())
+            return false;
+    }
+    return true;
 }
 
 void EditFlow::unlock()
@@ -142,7 +162,10 @@ void EditFlow::openBits(const QModelIndex &cell)
 {
     const QVariant raw = cell.data(RawRole);
     if (!raw.isValid()) {
-        m_bar.showReason(tr("%1 has not been read yet: its other bits would be lost.").arg(fieldAt(cell)->name), {});
+        const QString why = cell.data(MixedRole).toBool()
+            ? tr("%1 differs: its other bits would be lost. Set it on one device, then that on all.")
+            : tr("%1 has not been read yet: its other bits would be lost.");
+        m_bar.showReason(why.arg(fieldAt(cell)->name), {});
         return;
     }
     auto *popup = new BitPopup(*fieldAt(cell), raw.toLongLong(), &m_view); // deletes itself when closed

@@ -37,6 +37,7 @@ private:
     void unlock();
     void editSafely();
     void resume();
+    bool isOnAll(const QModelIndex &cell) const;
     void openBits(const QModelIndex &cell);
     std::vector<Device *> targets(const QModelIndex &cell) const;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldtablemodel.h"
 
-#include "core/table/indirect.h"
 #include "ui/common/watchmime.h"
 #include "ui/table/consequencesdialog.h"
 
@@ -27,11 +26,14 @@ std::vector<FieldTableModel::Column> columnsFor(std::size_t devices)
         columns.push_back({ColumnKind::Value, 0});
         columns.push_back({ColumnKind::Physical, 0});
     } else {
+        columns.push_back({ColumnKind::All, 0});
         for (std::size_t i = 0; i < devices; ++i)
             columns.push_back({ColumnKind::Device, static_cast<int>(i)});
     }
-    columns.push_back({ColumnKind::Default, 0});
-    columns.push_back({ColumnKind::Range, 0});
+    if (devices <= 1) { // of several they may be of as many kinds
+        columns.push_back({ColumnKind::Default, 0});
+        columns.push_back({ColumnKind::Range, 0});
+    }
     columns.push_back({ColumnKind::Access, 0});
     return columns;
 }
@@ -47,11 +49,11 @@ FieldTableModel::FieldTableModel(TableActions actions, ChangeTracker::Clock cloc
     m_frame.setSingleShot(true);
     m_frame.setInterval(FrameMs);
     connect(&m_frame, &QTimer::timeout, this, &FieldTableModel::flush);
-    connect(&m_tracker, &ChangeTracker::looksChanged, this, [this](int device, int field) {
+    connect(&m_tracker, &ChangeTracker::looksChanged, this, [this](int device, int row) {
         const int first = columnOf(m_devices.size() > 1 ? ColumnKind::Device : ColumnKind::Value, device);
         const int last = m_devices.size() > 1 ? first : columnOf(ColumnKind::Physical);
         if (m_live)
-            emit dataChanged(indexOf(field, first), indexOf(field, last), {FadeRole, PendingRole});
+            emit dataChanged(indexOf(row, first), indexOf(row, last), {FadeRole, PendingRole});
     });
 }
 
@@ -62,16 +64,17 @@ void FieldTableModel::setDevices(const std::vector<Device *> &devices)
         device->disconnect(this);
     m_devices = devices;
     m_columns = columnsFor(devices.size());
-    m_groups = devices.empty() ? std::vector<FieldGroup>() : fieldGroups(devices.front()->table());
-    m_deciding = devices.empty() ? std::set<int>() : decidingFields(devices.front()->table());
-    const std::size_t fields = devices.empty() ? 0 : devices.front()->table().fields().size();
-    m_dirty.assign(fields, 0);
+    std::vector<const ControlTable *> tables;
+    for (const Device *device : devices)
+        tables.push_back(&device->table());
+    m_rows = RegisterRows(tables);
+    m_dirty.assign(static_cast<std::size_t>(m_rows.count()), 0);
     m_frame.stop();
-    m_tracker.reset(static_cast<int>(devices.size()), static_cast<int>(fields));
+    m_tracker.reset(static_cast<int>(devices.size()), m_rows.count());
     for (int i = 0; i < static_cast<int>(devices.size()); ++i) {
         Device *device = devices[static_cast<std::size_t>(i)];
-        for (int field = 0; field < static_cast<int>(fields); ++field)
-            m_tracker.observe(i, field, device->value(field), false);
+        for (int field = 0; field < static_cast<int>(device->table().fields().size()); ++field)
+            m_tracker.observe(i, m_rows.rowOf(i, field), device->value(field), false);
         connect(device, &Device::fieldsChanged, this, [this, i](int first, int last) { note(i, first, last); });
         connect(device, &Device::attributesChanged, this, &FieldTableModel::emitEverything);
         connect(device, &QObject::destroyed, this, &FieldTableModel::deviceGone);
@@ -89,7 +92,7 @@ void FieldTableModel::deviceGone(QObject *device)
     }
     beginResetModel();
     m_devices.clear();
-    m_groups.clear();
+    m_rows = RegisterRows();
     m_columns = columnsFor(0);
     endResetModel();
     for (Device *known : left)
@@ -108,9 +111,8 @@ void FieldTableModel::setLive(bool live)
 
 std::vector<Device *> FieldTableModel::targets(int column) const
 {
-    if (m_editsAll || m_devices.empty())
-        return m_devices;
-    return {m_devices[static_cast<std::size_t>(columnAt(column).device)]};
+    const Column &of = m_columns[static_cast<std::size_t>(column)];
+    return of.kind == ColumnKind::All || m_devices.empty() ? m_devices : std::vector<Device *>{&deviceAt(of.device)};
 }
 
 void FieldTableModel::refreshWatches()
@@ -127,7 +129,7 @@ void FieldTableModel::refreshMarks()
 void FieldTableModel::refreshColumn(ColumnKind kind)
 {
     const int column = columnOf(kind);
-    for (int group = 0; group < static_cast<int>(m_groups.size()); ++group) {
+    for (int group = 0; group < static_cast<int>(groups().size()); ++group) {
         const std::vector<char> all(m_dirty.size(), 1);
         emitRows(group, all, column, column);
     }
@@ -140,37 +142,63 @@ int FieldTableModel::columnOf(ColumnKind kind, int device) const
     return found == m_columns.end() ? -1 : static_cast<int>(found - m_columns.begin());
 }
 
-QModelIndex FieldTableModel::indexOf(int field, int column) const
+int FieldTableModel::firstValueColumn() const
 {
-    for (std::size_t group = 0; group < m_groups.size(); ++group) {
-        const std::vector<int> &fields = m_groups[group].fields;
-        const auto found = std::ranges::lower_bound(fields, field);
-        if (found != fields.end() && *found == field)
-            return createIndex(static_cast<int>(found - fields.begin()), column, static_cast<quintptr>(group + 1));
+    return columnOf(m_devices.size() > 1 ? ColumnKind::All : ColumnKind::Value);
+}
+
+int FieldTableModel::lastValueColumn() const
+{
+    return m_devices.size() > 1 ? columnOf(ColumnKind::Access) - 1 : columnOf(ColumnKind::Physical);
+}
+
+int FieldTableModel::mainValueColumn() const
+{
+    return std::max(columnOf(ColumnKind::Physical), columnOf(ColumnKind::Device));
+}
+
+int FieldTableModel::rowOf(const QString &name) const
+{
+    for (int device = 0; device < static_cast<int>(m_devices.size()); ++device) {
+        if (const int field = deviceAt(device).table().indexOf(name); field >= 0)
+            return m_rows.rowOf(device, field);
+    }
+    return -1;
+}
+
+QModelIndex FieldTableModel::indexOf(int row, int column) const
+{
+    for (std::size_t group = 0; group < groups().size(); ++group) {
+        const std::vector<int> &rows = groups()[group].fields;
+        const auto found = std::ranges::lower_bound(rows, row);
+        if (found != rows.end() && *found == row)
+            return createIndex(static_cast<int>(found - rows.begin()), column, static_cast<quintptr>(group + 1));
     }
     return {};
 }
 
-std::vector<Watch> FieldTableModel::watches(const QModelIndexList &rows) const
+std::vector<Watch> FieldTableModel::watches(const QModelIndexList &indexes) const
 {
-    std::set<int> fields;
-    for (const QModelIndex &row : rows) {
-        if (const int field = fieldOf(row); field >= 0)
-            fields.insert(field);
+    std::set<int> rows;
+    for (const QModelIndex &index : indexes) {
+        if (const int row = rowOf(index); row >= 0)
+            rows.insert(row);
     }
     std::vector<Watch> found;
-    for (const int field : fields) {
-        for (const Device *device : m_devices)
-            found.push_back({device->key(), field});
+    for (const int row : rows) {
+        for (int device = 0; device < static_cast<int>(m_devices.size()); ++device) {
+            if (const int field = m_rows.fieldOf(row, device); field >= 0)
+                found.push_back({deviceAt(device).key(), field});
+        }
     }
     return found;
 }
 
-int FieldTableModel::fieldOf(const QModelIndex &index) const
+int FieldTableModel::rowOf(const QModelIndex &index) const
 {
     if (!index.isValid() || index.internalId() == GroupId)
         return -1;
-    return m_groups[index.internalId() - 1].fields[static_cast<std::size_t>(index.row())];
+    return groups()[index.internalId() - 1].fields[static_cast<std::size_t>(index.row())];
 }
 
 QModelIndex FieldTableModel::index(int row, int column, const QModelIndex &parent) const
@@ -190,10 +218,10 @@ QModelIndex FieldTableModel::parent(const QModelIndex &child) const
 int FieldTableModel::rowCount(const QModelIndex &parent) const
 {
     if (!parent.isValid())
-        return static_cast<int>(m_groups.size());
+        return static_cast<int>(groups().size());
     if (parent.internalId() != GroupId || parent.column() != 0)
         return 0;
-    return static_cast<int>(m_groups[static_cast<std::size_t>(parent.row())].fields.size());
+    return static_cast<int>(groups()[static_cast<std::size_t>(parent.row())].fields.size());
 }
 
 int FieldTableModel::columnCount(const QModelIndex & /*parent*/) const
@@ -208,116 +236,14 @@ QVariant FieldTableModel::data(const QModelIndex &index, int role) const
     const Column column = columnAt(index.column());
     if (role == KindRole)
         return static_cast<int>(column.kind);
-    const int field = fieldOf(index);
-    if (field >= 0)
-        return fieldData(field, column, role);
-    const FieldGroup &group = m_groups[static_cast<std::size_t>(index.row())];
+    if (const int row = rowOf(index); row >= 0)
+        return rowData(row, column, role);
+    const FieldGroup &group = groups()[static_cast<std::size_t>(index.row())];
     if (role == GroupRole)
         return group.title;
     if (role == GroupHintRole)
         return group.isRun ? tr("%1 registers").arg(group.fields.size()) : QString();
     return {};
-}
-
-QVariant FieldTableModel::fieldData(int field, const Column &column, int role) const
-{
-    switch (role) {
-    case FieldRole: return field;
-    case FieldDataRole: return QVariant::fromValue(&this->field(field));
-    case EffectiveRole:
-        return QVariant::fromValue(m_devices[static_cast<std::size_t>(column.device)]->effective(field));
-    case ControlTableRole: return QVariant::fromValue(m_devices.front()->sharedTable());
-    case ResolutionRole: return m_devices.front()->table().resolution();
-    case WatchedRole: return static_cast<int>(watched(field));
-    case RamStateRole: return static_cast<int>(ramState(field, column));
-    case Qt::CheckStateRole:
-        return column.kind == ColumnKind::Plot ? QVariant(static_cast<int>(watched(field))) : QVariant();
-    case ChangedFromDefaultRole:
-    case DiffersRole: {
-        const auto is = [&](int device) {
-            return role == DiffersRole ? differs(field, device) : isChangedFromDefault(field, device);
-        };
-        if (isValueKind(column.kind))
-            return is(column.device);
-        for (int device = 0; device < static_cast<int>(m_devices.size()); ++device) {
-            if (is(device))
-                return true;
-        }
-        return false;
-    }
-    default: return isValueKind(column.kind) ? valueData(field, column.device, role) : QVariant();
-    }
-}
-
-QVariant FieldTableModel::valueData(int field, int device, int role) const
-{
-    const Device &of = *m_devices[static_cast<std::size_t>(device)];
-    const FieldValue &value = of.value(field);
-    switch (role) {
-    case RawRole:
-    case Qt::EditRole: return value.raw ? QVariant(static_cast<qlonglong>(*value.raw)) : QVariant();
-    case StateRole: return static_cast<int>(value.state);
-    case ErrorRole: return value.error;
-    case FadeRole: return m_tracker.fade(device, field);
-    case PendingRole:
-        return value.pending && m_tracker.showsPending(device, field)
-            ? QVariant(static_cast<qlonglong>(*value.pending)) : QVariant();
-    case LockRole: {
-        for (const Device *target : m_editsAll ? m_devices : std::vector<Device *>{m_devices[std::size_t(device)]}) {
-            if (const QString reason = target->lockReason(field, true); !reason.isEmpty())
-                return reason;
-        }
-        return QString();
-    }
-    case PointsAtRole: {
-        const std::optional<std::int64_t> address = pointsAt(field, of);
-        return address ? QVariant(static_cast<qlonglong>(*address)) : QVariant();
-    }
-    default: return {};
-    }
-}
-
-std::optional<std::int64_t> FieldTableModel::pointsAt(int field, const Device &device) const
-{
-    const Field &of = this->field(field);
-    if (indirectAddressNumber(of) > 0)
-        return device.value(field).raw;
-    const int address = indirectAddressOf(device.table(), of);
-    return address < 0 ? std::nullopt : device.value(address).raw;
-}
-
-bool FieldTableModel::differs(int field, int device) const
-{
-    const auto first = m_devices.front()->value(field).raw;
-    const auto own = m_devices[static_cast<std::size_t>(device)]->value(field).raw;
-    return this->field(field).isWritable() && first && own && *first != *own;
-}
-
-bool FieldTableModel::isChangedFromDefault(int field, int device) const
-{
-    const Field &of = this->field(field);
-    const auto raw = m_devices[static_cast<std::size_t>(device)]->value(field).raw;
-    return of.isWritable() && of.initial && raw && *raw != *of.initial;
-}
-
-Qt::CheckState FieldTableModel::watched(int field) const
-{
-    const auto count = std::ranges::count_if(
-        m_devices, [&](const Device *device) { return m_actions.isWatched({device->key(), field}); });
-    if (count == 0)
-        return Qt::Unchecked;
-    return count == std::ssize(m_devices) ? Qt::Checked : Qt::PartiallyChecked;
-}
-
-/// The one that matters most.
-RamState FieldTableModel::ramState(int field, const Column &column) const
-{
-    RamState state = RamState::NotSet;
-    for (int i = 0; m_actions.ramState && i < static_cast<int>(m_devices.size()); ++i) {
-        if (!isValueKind(column.kind) || column.device == i)
-            state = std::max(state, m_actions.ramState({m_devices[static_cast<std::size_t>(i)]->key(), field}));
-    }
-    return state;
 }
 
 QVariant FieldTableModel::headerData(int section, Qt::Orientation orientation, int role) const
@@ -327,73 +253,27 @@ QVariant FieldTableModel::headerData(int section, Qt::Orientation orientation, i
     const Column column = columnAt(section);
     if (role == KindRole)
         return static_cast<int>(column.kind);
-    if (role == Qt::DisplayRole && column.kind == ColumnKind::Device)
-        return m_devices[static_cast<std::size_t>(column.device)]->displayName();
-    return {};
+    if (role != Qt::DisplayRole || column.kind != ColumnKind::Device)
+        return {};
+    const Device &device = deviceAt(column.device);
+    return device.nickname().isEmpty() ? device.displayName()
+                                       : QStringLiteral("%1 #%2").arg(device.nickname()).arg(device.id());
 }
 
 Qt::ItemFlags FieldTableModel::flags(const QModelIndex &index) const
 {
-    const int field = fieldOf(index);
-    if (field < 0) // a heading: nothing to be done with it
+    const int row = rowOf(index);
+    if (row < 0) // a heading: nothing to be done with it
         return index.isValid() ? Qt::ItemIsEnabled : Qt::NoItemFlags;
     Qt::ItemFlags flags = Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsDragEnabled | Qt::ItemNeverHasChildren;
-    const ColumnKind kind = columnAt(index.column()).kind;
-    if (kind == ColumnKind::Plot)
+    const Column column = columnAt(index.column());
+    if (column.kind == ColumnKind::Plot)
         flags |= Qt::ItemIsUserCheckable;
-    if (isValueKind(kind) && isEditable(this->field(field)))
+    // A cell without register can't be edited, but passed through: the keys go along the column.
+    const bool isAbsent = column.kind == ColumnKind::Device && m_rows.fieldOf(row, column.device) < 0;
+    if (isValueKind(column.kind) && !isAbsent && isEditable(field(row, column.device)))
         flags |= Qt::ItemIsEditable;
     return flags;
-}
-
-bool FieldTableModel::setData(const QModelIndex &index, const QVariant &value, int role)
-{
-    const int field = fieldOf(index);
-    if (field < 0)
-        return false;
-    const ColumnKind kind = columnAt(index.column()).kind;
-    if (role == Qt::CheckStateRole && kind == ColumnKind::Plot) {
-        const bool plot = value.toInt() == Qt::Checked;
-        for (const Device *device : std::vector<Device *>(m_devices)) {
-            if (plot)
-                emit plotRequested({device->key(), field});
-            else
-                emit unplotRequested({device->key(), field});
-        }
-        return true;
-    }
-    if (role != Qt::EditRole || !isValueKind(kind) || !isEditable(this->field(field)))
-        return false;
-    bool written = false;
-    std::vector<Device *> unknown, asked;
-    const std::int64_t raw = value.toLongLong();
-    for (Device *device : targets(index.column())) {
-        const FieldValue &now = device->value(field);
-        const bool same = now.raw == raw && !now.pending && now.state != FieldState::Failed;
-        const bool isAsked = !same && isToBeAsked(*device, field, raw);
-        if (same || (!isAsked && !device->lockReason(field, true).isEmpty()))
-            continue;
-        if (isAsked)
-            asked.push_back(device);
-        else if (this->field(field).mayBeTried())
-            unknown.push_back(device);
-        else
-            m_actions.write(*device, field, raw);
-        written = true;
-    }
-    if (!unknown.empty())
-        emit confirmationWanted(unknown, field, raw);
-    if (!asked.empty())
-        emit consequencesWanted(asked, field, raw);
-    return written;
-}
-
-bool FieldTableModel::isToBeAsked(const Device &device, int field, std::int64_t raw) const
-{
-    if (!m_actions.writeSafely || this->field(field).mayBeTried())
-        return false;
-    const bool isLocked = !device.lockReason(field, true).isEmpty();
-    return isLocked ? isLockedByTorqueAlone(device, field) : areSerious(consequencesOf(device, field, raw));
 }
 
 QStringList FieldTableModel::mimeTypes() const

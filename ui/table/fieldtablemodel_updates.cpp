@@ -10,9 +10,9 @@ void FieldTableModel::note(int device, int first, int last)
 {
     bool any = false;
     for (int field = first; field <= last; ++field) {
-        const FieldValue &value = m_devices[static_cast<std::size_t>(device)]->value(field);
-        if (m_tracker.observe(device, field, value, m_live)) {
-            m_dirty[static_cast<std::size_t>(field)] = 1;
+        const int row = m_rows.rowOf(device, field);
+        if (m_tracker.observe(device, row, deviceAt(device).value(field), m_live)) {
+            m_dirty[static_cast<std::size_t>(row)] = 1;
             any = true;
         }
     }
@@ -27,15 +27,13 @@ void FieldTableModel::flush()
     if (std::ranges::find(dirty, 1) == dirty.end())
         return;
     const bool decided
-        = std::ranges::any_of(m_deciding, [&](int field) { return dirty[static_cast<std::size_t>(field)] != 0; });
+        = std::ranges::any_of(m_rows.deciding(), [&](int row) { return dirty[static_cast<std::size_t>(row)] != 0; });
     if (decided) {
         emitEverything();
         return;
     }
-    const int first = columnOf(m_devices.size() > 1 ? ColumnKind::Device : ColumnKind::Value);
-    const int last = columnOf(ColumnKind::Default) - 1;
-    for (int group = 0; group < static_cast<int>(m_groups.size()); ++group)
-        emitRows(group, dirty, first, last);
+    for (int group = 0; group < static_cast<int>(groups().size()); ++group)
+        emitRows(group, dirty, firstValueColumn(), lastValueColumn());
     emit updated();
 }
 
@@ -43,7 +41,7 @@ void FieldTableModel::emitRows(int group, const std::vector<char> &dirty, int fi
 {
     // One change per stretch of rows, small gaps included: a signal costs more than a few rows painted for nothing.
     constexpr int Gap = 8;
-    const std::vector<int> &fields = m_groups[static_cast<std::size_t>(group)].fields;
+    const std::vector<int> &fields = groups()[static_cast<std::size_t>(group)].fields;
     const auto tell = [&](int first, int last) {
         const auto id = static_cast<quintptr>(group + 1);
         emit dataChanged(createIndex(first, firstColumn, id), createIndex(last, lastColumn, id));
@@ -67,7 +65,7 @@ void FieldTableModel::emitRows(int group, const std::vector<char> &dirty, int fi
 void FieldTableModel::emitEverything()
 {
     const std::vector<char> all(m_dirty.size(), 1);
-    for (int group = 0; group < static_cast<int>(m_groups.size()); ++group)
+    for (int group = 0; group < static_cast<int>(groups().size()); ++group)
         emitRows(group, all, 0, columnCount() - 1);
     emit headerDataChanged(Qt::Horizontal, 0, columnCount() - 1);
     emit updated();

@@ -64,6 +64,8 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
         return hasMeaning(index, *field);
     if (role == Qt::ToolTipRole)
         return plainToolTip(toolTip(index, *field, kind));
+    if (role == Qt::AccessibleTextRole && !QIdentityProxyModel::data(index, AbsentRole).toString().isEmpty())
+        return tr("not on this model");
     if (isValueKind(kind))
         return valueData(index, *field, kind, role);
     if (role == Qt::TextAlignmentRole) {
@@ -74,7 +76,9 @@ QVariant FieldWordsModel::data(const QModelIndex &index, int role) const
         return QIdentityProxyModel::data(index, role);
     switch (kind) {
     case ColumnKind::Name: return field->name;
-    case ColumnKind::Address: return field->address;
+    case ColumnKind::Address:
+        return QIdentityProxyModel::data(index, AddressesRole).toStringList().isEmpty()
+            ? QVariant(field->address) : QVariant(QStringLiteral("%1 …").arg(field->address));
     case ColumnKind::Default: return limit(index, *field, defaultText);
     case ColumnKind::Range: return limit(index, *field, rangeText);
     case ColumnKind::Access:
@@ -104,6 +108,8 @@ QVariant FieldWordsModel::valueData(const QModelIndex &index, const Field &field
 {
     if (role != Qt::DisplayRole && role != NumberRole && role != UnitRole && role != PendingTextRole)
         return QIdentityProxyModel::data(index, role);
+    if (role == Qt::DisplayRole && QIdentityProxyModel::data(index, MixedRole).toBool())
+        return tr("mixed");
     const QVariant raw = QIdentityProxyModel::data(index, role == PendingTextRole ? PendingRole : RawRole);
     if (!raw.isValid())
         return {};
@@ -127,13 +133,12 @@ FieldWordsModel::Words FieldWordsModel::words(const QModelIndex &index, const Fi
     if (const QString name = meaning(field, raw); !name.isEmpty())
         return {name, {}, {}};
     if (const QString name = indirectText(index, field, raw); !name.isEmpty())
-        return indirectDataNumber(field) > 0 && kind == ColumnKind::Device ? Words{bare, bare, {}}
-                                                                           : Words{name, {}, {}};
+        return indirectDataNumber(field) > 0 && isComparingKind(kind) ? Words{bare, bare, {}} : Words{name, {}, {}};
     if (!field.values.empty() || !field.bits.empty()) // a value the table has no name for
-        return kind == ColumnKind::Device ? Words{bare, bare, {}} : Words();
+        return isComparingKind(kind) ? Words{bare, bare, {}} : Words();
     const auto effective = QIdentityProxyModel::data(index, EffectiveRole).value<EffectiveField>();
     if (effective.unit == Unit::None || m_units.raw)
-        return kind == ColumnKind::Device ? Words{bare, bare, {}} : Words();
+        return isComparingKind(kind) ? Words{bare, bare, {}} : Words();
     const Physical value
         = physical(effective, QIdentityProxyModel::data(index, ResolutionRole).toInt(), raw, m_units);
     const QString number = QString::number(value.value, 'f', value.decimals);
@@ -170,8 +175,14 @@ QString FieldWordsModel::toolTip(const QModelIndex &index, const Field &field, C
         return limit(index, field, rangeToolTip);
     if (kind == ColumnKind::Default)
         return limit(index, field, defaultToolTip);
+    if (kind == ColumnKind::Address)
+        return QIdentityProxyModel::data(index, AddressesRole).toStringList().join(u'\n');
     if (!isValueKind(kind))
         return {};
+    if (const QString absent = QIdentityProxyModel::data(index, AbsentRole).toString(); !absent.isEmpty())
+        return absent;
+    if (kind == ColumnKind::All)
+        return isEditable(field) ? tr("An edit here is written to all selected devices") : QString();
     if (const QString error = QIdentityProxyModel::data(index, ErrorRole).toString(); !error.isEmpty())
         return error;
     switch (static_cast<FieldState>(QIdentityProxyModel::data(index, StateRole).toInt())) {
@@ -204,6 +215,7 @@ QVariant FieldWordsModel::headerData(int section, Qt::Orientation orientation, i
         case ColumnKind::Value: return tr("The number in the register");
         case ColumnKind::Physical: return tr("What the number means");
         case ColumnKind::Range: return tr("What may be written; hover over it for the raw values");
+        case ColumnKind::All: return tr("What all selected devices have; an edit here is written to all of them");
         case ColumnKind::Device:
             return plainToolTip(QIdentityProxyModel::headerData(section, orientation, Qt::DisplayRole).toString());
         default: return {};
@@ -220,6 +232,7 @@ QVariant FieldWordsModel::headerData(int section, Qt::Orientation orientation, i
     case ColumnKind::Default: return tr("Default");
     case ColumnKind::Range: return tr("Range");
     case ColumnKind::Access: return tr("Access");
+    case ColumnKind::All: return tr("All");
     case ColumnKind::Device: break;
     }
     return QIdentityProxyModel::headerData(section, orientation, role);

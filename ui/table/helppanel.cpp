@@ -5,6 +5,7 @@
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/table/fieldwordsmodel.h"
 #include "ui/table/limitwords.h"
 #include "ui/table/tableroles.h"
 

@@ -39,7 +39,7 @@ TableActions tableActions(const Workbench &workbench)
     actions.writeUnknown
         = [&commands](Device &device, int field, std::int64_t raw) { commands.writeUnknown(device, field, raw); };
     actions.writeSafely = safeWrites(workbench);
-    actions.setUnfolded = [&monitor](const std::set<int> &fields) { monitor.setUnfolded(fields); };
+    actions.setUnfolded = [&monitor](const std::set<Watch> &fields) { monitor.setUnfolded(fields); };
     if (RamGuard *guard = workbench.ramGuard) {
         actions.ramState = [guard](const Watch &watch) { return guard->stateOf(watch.device, watch.field); };
         actions.setAgain = [guard](const std::vector<Device *> &devices, RamGuard::Done done) {

@@ -28,7 +28,7 @@ struct TableActions {
     /// The safe way of a write with consequences (consequencesdialog.h); of Torque Enable: on, with the goal at rest.
     std::function<void(Device &, int field, std::int64_t raw, bool torqueBack)> writeSafely = {};
     /// Which fields of long runs are in sight (Monitor::setUnfolded).
-    std::function<void(const std::set<int> &fields)> setUnfolded = {};
+    std::function<void(const std::set<Watch> &fields)> setUnfolded = {};
 };
 
 /// Of this workbench; nothing where it has no settings.

@@ -2,6 +2,7 @@
 #include "ui/table/tablemenu.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 #include "ui/table/tableroles.h"
 
 #include <QMenu>
@@ -36,15 +37,18 @@ void popupTableMenu(const QModelIndex &cell, const TableMenuActions &actions, co
         if (actions.setAgain)
             add(menu, {}, QMenu::tr("Set again what the restart took"), actions.setAgain);
         menu->addSeparator();
+        if (actions.deviceCount > 1) {
+            add(menu, {}, QMenu::tr("Set on All Selected…"), actions.editAll)
+                ->setObjectName(QStringLiteral("editAllAction"));
+            if (actions.copyToAll)
+                add(menu, {},
+                    QMenu::tr("Set %1 on All %2 Selected").arg(plainLabel(actions.value)).arg(actions.deviceCount),
+                    actions.copyToAll)
+                    ->setObjectName(QStringLiteral("copyToAllAction"));
+            menu->addSeparator();
+        }
     }
     add(menu, QStringLiteral("refresh"), QMenu::tr("Read again"), actions.readAgain);
-    if (actions.applyToAll) {
-        menu->addSeparator();
-        QAction *all = menu->addAction(QMenu::tr("Apply edits to all %1 devices").arg(actions.deviceCount));
-        all->setCheckable(true);
-        all->setChecked(actions.appliesToAll);
-        QObject::connect(all, &QAction::toggled, menu, actions.applyToAll);
-    }
     menu->popup(at);
 }
 

@@ -18,8 +18,9 @@ struct TableMenuActions {
     std::function<void()> resetToDefault;
     std::function<void()> setAgain; ///< what a restart took; only where it did
     std::function<void()> readAgain;
-    std::function<void(bool)> applyToAll; ///< only with several devices
-    bool appliesToAll = false;
+    std::function<void()> editAll;  ///< of several devices: asks what to set on all of them
+    std::function<void()> copyToAll; ///< sets this cell's value on all of them
+    QString value;                   ///< which that is
     int deviceCount = 1;
 };
 

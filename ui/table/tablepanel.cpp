@@ -35,6 +35,7 @@ namespace dynascope {
 namespace {
 
 constexpr quint32 StateVersion = 1;
+constexpr std::size_t MostDevices = 32; ///< columns beyond that nobody compares by eye
 constexpr int LittleHeight = 460; ///< below this the rows need the room more than the help
 
 /// A line between parts, in place of frames.
@@ -125,6 +126,7 @@ void TablePanel::connectParts()
                 askToWriteUnknown(devices, field, raw, m_actions.writeUnknown, this);
             });
     connect(m_model, &FieldTableModel::consequencesWanted, this, &TablePanel::tellConsequences);
+    connect(m_model, &FieldTableModel::refused, this, &TablePanel::notWritten);
     connect(m_delegate, &FieldDelegate::notWritten, this, &TablePanel::notWritten);
     connect(m_view, &TableView::plotToggled, this, &TablePanel::togglePlot);
     connect(m_view, &QWidget::customContextMenuRequested, this, &TablePanel::showMenu);
@@ -155,10 +157,6 @@ void TablePanel::connectParts()
         if (isField || m_filter->rowCount() > 0)
             m_view->setCurrentIndex(isField ? m_view->currentIndex() : m_filter->index(0, 0, m_filter->index(0, 0)));
     });
-    connect(m_tools, &TableTools::editAllToggled, this, [this](bool on) {
-        m_model->setEditsAll(on);
-        currentChanged();
-    });
 }
 
 void TablePanel::addShortcuts()
@@ -174,21 +172,20 @@ void TablePanel::addShortcuts()
 
 void TablePanel::setDevices(const std::vector<Device *> &devices)
 {
-    std::vector<Device *> alike;
-    std::ranges::copy_if(devices, std::back_inserter(alike), [&](const Device *device) {
-        return device->modelNumber() == devices.front()->modelNumber()
-            && device->table().fields().size() == devices.front()->table().fields().size();
-    });
-    if (alike == m_model->devices() && !alike.empty())
+    std::vector<Device *> shown = devices;
+    shown.resize(std::min(devices.size(), MostDevices));
+    if (shown == m_model->devices() && !shown.empty())
         return;
     const Field *current = valueCell().data(FieldDataRole).value<const Field *>();
     const QString name = current ? current->name : QString();
     const int scrolled = m_view->verticalScrollBar()->value();
-    m_model->setDevices(alike);
-    m_tools->setDeviceCount(static_cast<int>(alike.size()));
+    m_model->setDevices(shown);
+    m_tools->setDeviceCount(static_cast<int>(shown.size()));
     refreshMarks();
-    if (!alike.empty())
-        m_view->makeRoomFor(alike.front()->table());
+    std::vector<const ControlTable *> tables;
+    for (const Device *device : shown)
+        tables.push_back(&device->table());
+    m_view->makeRoomFor(tables);
     m_view->applyColumnWidths();
     updateGroups();
     selectField(name);
@@ -200,7 +197,7 @@ void TablePanel::setSelected(std::size_t count)
 {
     const std::size_t shown = m_model->devices().size();
     m_others->setText(
-        tr("%1 of %2 selected: the others have another control table").arg(shown).arg(std::max(shown, count)));
+        tr("%1 of %2 selected devices are shown").arg(shown).arg(std::max(shown, count)));
     m_others->setToolTip(tr("What is edited here is written to those whose columns are shown. Torque, LED, reboot and "
                             "Read all act on every selected device."));
     m_others->setVisible(shown > 0 && count > shown);
@@ -210,10 +207,8 @@ void TablePanel::selectField(const QString &name)
 {
     if (name.isEmpty() || m_model->devices().empty())
         return;
-    const int field = m_model->devices().front()->table().indexOf(name);
-    const int column
-        = std::max(m_model->columnOf(ColumnKind::Physical), m_model->columnOf(ColumnKind::Device));
-    const QModelIndex cell = m_filter->mapFromSource(m_words->mapFromSource(m_model->indexOf(field, column)));
+    const QModelIndex known = m_model->indexOf(m_model->rowOf(name), m_model->mainValueColumn());
+    const QModelIndex cell = m_filter->mapFromSource(m_words->mapFromSource(known));
     if (cell.isValid())
         m_view->selectionModel()->setCurrentIndex(
             cell, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
@@ -278,9 +273,7 @@ QModelIndex TablePanel::valueCell() const
         return {};
     if (isValueKind(kindAt(current)))
         return current;
-    const int column
-        = std::max(m_model->columnOf(ColumnKind::Physical), m_model->columnOf(ColumnKind::Device));
-    return current.siblingAtColumn(column);
+    return current.siblingAtColumn(m_model->mainValueColumn());
 }
 
 void TablePanel::currentChanged()
@@ -291,10 +284,14 @@ void TablePanel::currentChanged()
         m_goals->setDevices({});
         return;
     }
-    const std::vector<Device *> targets = m_model->targets(cell.isValid() ? cell.column() : 0);
+    std::vector<Device *> targets = m_model->targets(cell.isValid() ? cell.column() : 0);
+    // One slider stands at raw values, which mean the same only in one table.
+    const auto isOther = [&](const Device *device) { return &device->table() != &targets.front()->table(); };
+    if (std::ranges::any_of(targets, isOther))
+        targets.clear();
     const bool several = m_model->devices().size() > 1;
     m_goals->setDevices(targets, !several ? QString()
-                            : targets.size() > 1 ? tr("all %1").arg(targets.size()) : targets.front()->displayName());
+                            : targets.size() != 1 ? tr("all %1").arg(targets.size()) : targets.front()->displayName());
 }
 
 void TablePanel::togglePlot(const QModelIndex &cell)
@@ -333,6 +330,7 @@ void TablePanel::showMenu(const QPoint &at)
         if (field->isWritable() && field->initial && !isProcedureField(*field)
             && cell.data(ChangedFromDefaultRole).toBool())
             actions.resetToDefault = [this, cell, initial = *field->initial] { m_flow->write(cell, initial); };
+        addSettingAll(actions, cell);
     }
     if (m_actions.setAgain && cell.data(RamStateRole).toInt() == static_cast<int>(RamState::Lost))
         actions.setAgain = [this] { setLostAgain(); };
@@ -341,10 +339,22 @@ void TablePanel::showMenu(const QPoint &at)
             m_actions.readAll(*device);
     };
     actions.deviceCount = static_cast<int>(m_model->devices().size());
-    actions.appliesToAll = m_model->editsAll();
-    if (actions.deviceCount > 1)
-        actions.applyToAll = [this](bool on) { m_tools->editAll()->setChecked(on); };
     popupTableMenu(cell, actions, m_view->viewport()->mapToGlobal(at), this);
+}
+
+void TablePanel::addSettingAll(TableMenuActions &actions, const QPersistentModelIndex &cell)
+{
+    const Field &field = *fieldAt(cell);
+    const int column = m_model->columnOf(ColumnKind::All);
+    if (column < 0 || !isEditable(field) || isProcedureField(field))
+        return;
+    const QPersistentModelIndex all = cell.sibling(cell.row(), column);
+    actions.editAll = [this, all] { m_view->startEdit(all); };
+    const std::optional<std::int64_t> meant = m_model->forAll(m_words->mapToSource(m_filter->mapToSource(cell)));
+    if (!meant || kindAt(cell) == ColumnKind::All)
+        return;
+    actions.value = cell.data().toString();
+    actions.copyToAll = [this, all, raw = *meant] { m_flow->write(all, raw); };
 }
 
 QByteArray TablePanel::saveState() const

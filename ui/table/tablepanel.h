@@ -27,6 +27,7 @@ class LockBar;
 class TableEmpty;
 class TableTools;
 class TableView;
+struct TableMenuActions;
 
 /// The control table of the selected devices: search, filters, grid with editors, goal sliders, why a field is locked.
 class TablePanel : public QWidget
@@ -39,7 +40,7 @@ public:
     explicit TablePanel(TableActions actions, std::function<qint64()> clock = {}, QWidget *parent = nullptr);
     ~TablePanel() override;
 
-    void setDevices(const std::vector<Device *> &devices); ///< of one model; empty shows what belongs here
+    void setDevices(const std::vector<Device *> &devices); ///< empty shows what belongs here
     void setSelected(std::size_t count); ///< where that is more than the table shows, it says so
     void refreshWatches();                                 ///< what is plotted has changed
     void refreshMarks(); ///< what was set in this session has
@@ -71,6 +72,7 @@ private:
     void currentChanged();
     void togglePlot(const QModelIndex &cell);
     void showMenu(const QPoint &at);
+    void addSettingAll(TableMenuActions &actions, const QPersistentModelIndex &cell);
     void copyValue();
     void setLostAgain();
     void showNote();

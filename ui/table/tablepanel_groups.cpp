@@ -4,6 +4,7 @@
 #include "ui/common/icons.h"
 #include "ui/table/fieldfiltermodel.h"
 #include "ui/table/fieldtablemodel.h"
+#include "ui/table/fieldwordsmodel.h"
 #include "ui/table/helppanel.h"
 #include "ui/table/tablenote.h"
 #include "ui/table/tablepanel.h"
@@ -55,15 +56,16 @@ void TablePanel::tellUnfolded()
 {
     if (m_arranging || !m_actions.setUnfolded)
         return;
-    std::set<int> fields;
+    QModelIndexList shown;
     for (int row = 0; row < m_filter->rowCount(); ++row) {
         const QModelIndex group = m_filter->index(row, 0);
         if (group.data(GroupHintRole).toString().isEmpty() || !m_view->isExpanded(group))
             continue;
         for (int child = 0; child < m_filter->rowCount(group); ++child)
-            fields.insert(m_filter->index(child, 0, group).data(FieldRole).toInt());
+            shown << m_words->mapToSource(m_filter->mapToSource(m_filter->index(child, 0, group)));
     }
-    m_actions.setUnfolded(fields);
+    const std::vector<Watch> fields = m_model->watches(shown);
+    m_actions.setUnfolded({fields.begin(), fields.end()});
 }
 
 void TablePanel::updateGroups()

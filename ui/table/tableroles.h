@@ -10,15 +10,16 @@
 namespace dynascope {
 
 /// What a column of the table shows.
-enum class ColumnKind { Name, Plot, Address, Value, Physical, Device, Default, Range, Access };
+enum class ColumnKind { Name, Plot, Address, Value, Physical, Device, Default, Range, Access, All };
 
 /// Raw roles of FieldTableModel, and below them the words FieldWordsModel adds. Delegates, filters and editors know
 /// these and no model. A group's row has none but GroupRole and GroupHintRole.
 enum TableRole {
     GroupRole = Qt::UserRole, ///< QString: the group's title
     GroupHintRole,            ///< QString: what a group says beside its title; empty where that is plain
-    FieldRole,                ///< int: index in the device's table; missing for groups
-    FieldDataRole,            ///< const Field *
+    FieldRole,                ///< int: the row among RegisterRows; missing for groups
+    FieldDataRole,            ///< const Field *: the cell's device's; where it has none, another's (AbsentRole)
+    AbsentRole,               ///< QString: why this device has no such register; empty where it has
     KindRole,                 ///< int: ColumnKind
     RawRole,                  ///< qlonglong: what the servo said last; missing where it never did
     StateRole,                ///< int: FieldState
@@ -26,7 +27,9 @@ enum TableRole {
     ErrorRole,                ///< QString
     EffectiveRole,            ///< EffectiveField
     ResolutionRole,           ///< int: pulses per revolution
-    DiffersRole,              ///< bool: not what the first device has, in a register a person sets
+    DiffersRole,              ///< bool: not what the first device has, in a setting they share (isSharedSetting)
+    AddressesRole,            ///< QStringList: which table has it at which address, where these differ
+    MixedRole,                ///< bool: of the column for all devices: they hold different values
     ChangedFromDefaultRole,   ///< bool: writable, not as it left the factory; of any device but in values' columns
     RamStateRole,             ///< int: RamState; of any device but in values' columns
     WatchedRole,              ///< int: Qt::CheckState over all devices
@@ -51,9 +54,15 @@ inline bool isEditable(const Field &field)
     return field.isWritable() || field.mayBeTried();
 }
 
+/// A column of several devices' values: one device's, or that of all together.
+inline bool isComparingKind(ColumnKind kind)
+{
+    return kind == ColumnKind::Device || kind == ColumnKind::All;
+}
+
 inline bool isValueKind(ColumnKind kind)
 {
-    return kind == ColumnKind::Value || kind == ColumnKind::Physical || kind == ColumnKind::Device;
+    return kind == ColumnKind::Value || kind == ColumnKind::Physical || isComparingKind(kind);
 }
 
 inline ColumnKind kindAt(const QModelIndex &index)

@@ -49,12 +49,10 @@ TableTools::TableTools(FieldFilterModel &filter, QWidget *parent)
                           tr("Only what was set in this session and is gone at power-off"));
     connectFilter(m_setHere, &FieldFilterModel::setOnlySetHere);
     m_setHere->hide();
-    m_different = addToggle("filterDifferent", tr("Different"), tr("Only settings that differ between the devices"));
+    m_different = addToggle("filterDifferent", tr("Differing"),
+                            tr("Only settings that differ between the devices: not what is measured, nor goals, ID and "
+                               "Homing Offset"));
     connectFilter(m_different, &FieldFilterModel::setOnlyDifferent);
-    m_editAll = addToggle("editAll", QString(), QString());
-    m_editAll->setIcon(icon(QStringLiteral("edit")));
-    m_editAll->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    connect(m_editAll, &QToolButton::toggled, this, &TableTools::editAllToggled);
     setDeviceCount(0);
 }
 
@@ -73,13 +71,8 @@ void TableTools::setDeviceCount(int count)
 {
     const bool several = count > 1;
     m_different->setVisible(several);
-    m_editAll->setVisible(several);
-    m_editAll->setText(tr("Apply to all %1").arg(count));
-    m_editAll->setToolTip(tr("An edit is written to all %1 selected devices").arg(count));
-    if (!several) {
+    if (!several)
         m_different->setChecked(false);
-        m_editAll->setChecked(false);
-    }
 }
 
 void TableTools::setAnySetHere(bool any)
@@ -93,7 +86,7 @@ void TableTools::showSetHere()
 {
     m_search->clear();
     for (auto *button : findChildren<QToolButton *>()) {
-        if (button->isCheckable() && button != m_editAll)
+        if (button->isCheckable())
             button->setChecked(button == m_setHere && !m_setHere->isHidden());
     }
 }

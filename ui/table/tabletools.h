@@ -22,12 +22,10 @@ public:
     void setAnySetHere(bool any); ///< without any there is nothing to filter by
     void showSetHere();           ///< nothing but what was set in this session
     QLineEdit *search() const { return m_search; }
-    QToolButton *editAll() const { return m_editAll; }
 
 signals:
     void filterChanged();
     void leaveSearch();            ///< back to the grid
-    void editAllToggled(bool on);
 
 protected:
     bool eventFilter(QObject *watched, QEvent *event) override;
@@ -39,7 +37,6 @@ private:
     QLineEdit *m_search;
     QToolButton *m_setHere;
     QToolButton *m_different;
-    QToolButton *m_editAll;
 };
 
 } // namespace dynascope

@@ -5,6 +5,8 @@
 #include "ui/common/theme.h"
 #include "ui/table/cellpainter.h"
 #include "ui/table/limitwords.h"
+#include "ui/table/fieldwordsmodel.h"
+#include "ui/table/frozennames.h"
 #include "ui/table/tableheader.h"
 
 #include <QDrag>
@@ -23,7 +25,8 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Address: return 68;
     case ColumnKind::Value: return 70;
     case ColumnKind::Physical: return 164;
-    case ColumnKind::Device: return 156;
+    case ColumnKind::Device: return 132;
+    case ColumnKind::All: return 132;
     case ColumnKind::Default: return 66;
     case ColumnKind::Range: return 158;
     case ColumnKind::Access: return 58;
@@ -31,23 +34,16 @@ int defaultWidth(ColumnKind kind)
     return 80;
 }
 
-constexpr int WidestName = 256; ///< longer ones elide: there is more to see
+constexpr int WidestName = 256;  ///< longer ones elide: there is more to see
+constexpr int WidestValue = 184; ///< and longer values, which have a tool tip
+constexpr int WidestOfMany = 152; ///< of one device among several: more of them are to be seen at once
+constexpr int ValueMark = 18;    ///< what a mark at the left of a value takes
 constexpr int WidestDefault = 128;
 constexpr int WidestRange = 236;
 
 int widest(ColumnKind kind)
 {
     return kind == ColumnKind::Default ? WidestDefault : kind == ColumnKind::Range ? WidestRange : QWIDGETSIZE_MAX;
-}
-
-QColor selectionTint(const QPalette &palette)
-{
-    const QColor base = palette.color(QPalette::Active, QPalette::Base);
-    const ThemeColors &theme = colors(palette);
-    const float share = theme.dark ? 0.22F : 0.13F;
-    return QColor::fromRgbF(base.redF() + (theme.accent.redF() - base.redF()) * share,
-                            base.greenF() + (theme.accent.greenF() - base.greenF()) * share,
-                            base.blueF() + (theme.accent.blueF() - base.blueF()) * share);
 }
 
 } // namespace
@@ -71,6 +67,7 @@ TableView::TableView(QWidget *parent)
     setIndentation(16);
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     setHeader(new TableHeader(this)); // the view owns it
+    new FrozenNames(*this);           // and this
     connect(header(), &QHeaderView::sectionResized, this, [this](int section, int, int size) {
         const bool isLast = section == header()->count() - 1;
         if (!m_applying && !isLast && model())
@@ -78,13 +75,28 @@ TableView::TableView(QWidget *parent)
     });
 }
 
+void TableView::makeRoomFor(const std::vector<const ControlTable *> &tables)
+{
+    m_needed.clear();
+    const ControlTable *last = nullptr;
+    for (const ControlTable *table : tables) {
+        if (table != last)
+            makeRoomFor(*table);
+        last = table;
+    }
+}
+
+void TableView::needRoom(ColumnKind kind, int width)
+{
+    int &known = m_needed[static_cast<int>(kind)];
+    known = std::max(known, width);
+}
+
 void TableView::makeRoomFor(const ControlTable &table)
 {
     const QFontMetrics digits(numberFont(font()));
-    m_needed.clear();
     const auto need = [&](ColumnKind kind, const QString &text) {
-        int &width = m_needed[static_cast<int>(kind)];
-        width = std::max(width, std::min(widest(kind), digits.horizontalAdvance(text) + 2 * CellMargin + 2));
+        needRoom(kind, std::min(widest(kind), digits.horizontalAdvance(text) + 2 * CellMargin + 2));
     };
     const LimitTexts limits = everyLimitText(table); // a choice of units or a mode shall move no column
     for (const QString &text : limits.defaults)
@@ -100,8 +112,13 @@ void TableView::makeRoomFor(const ControlTable &table)
         if (!field.suggested.isEmpty())
             whole += QStringLiteral("  %1?").arg(field.suggested);
         const int name = fontMetrics().horizontalAdvance(whole) + 2 * indentation() + CellMargin + 4 + mark;
-        int &width = m_needed[static_cast<int>(ColumnKind::Name)];
-        width = std::max(width, std::min(name, WidestName));
+        needRoom(ColumnKind::Name, std::min(name, WidestName));
+        for (const EnumValue &value : field.values) {
+            const int said = fontMetrics().horizontalAdvance(value.text) + 2 * CellMargin + 2;
+            needRoom(ColumnKind::Physical, std::min(said, WidestValue));
+            needRoom(ColumnKind::Device, std::min(said + ValueMark, WidestOfMany));
+            needRoom(ColumnKind::All, std::min(said, WidestOfMany));
+        }
     }
     // Nor the largest that fits into four bytes: few registers ever get there.
     need(ColumnKind::Value, withMinus(QString::number(-table.resolution())));
@@ -134,7 +151,7 @@ QModelIndex TableView::editTarget(const QModelIndex &index) const
     // Names are picked by name: the raw column is too narrow for them.
     const bool byName = !field->values.empty() || !field->bits.empty();
     const ColumnKind kind = kindAt(index);
-    if (kind == ColumnKind::Device || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
+    if (isComparingKind(kind) || kind == ColumnKind::Physical || (kind == ColumnKind::Value && !byName)) {
         if (kind != ColumnKind::Physical || index.data(HasMeaningRole).toBool())
             return index;
     }
@@ -144,7 +161,8 @@ QModelIndex TableView::editTarget(const QModelIndex &index) const
         const QModelIndex there = index.siblingAtColumn(column);
         if (kindAt(there) == wanted)
             return there;
-        if (!fallback.isValid() && isValueKind(kindAt(there)))
+        // Of several devices the first: what goes to all is edited only where that is meant.
+        if (!fallback.isValid() && isValueKind(kindAt(there)) && kindAt(there) != ColumnKind::All)
             fallback = there;
     }
     return fallback;

@@ -26,8 +26,8 @@ public:
 
     void startEdit(const QModelIndex &index) { edit(index, AllEditTriggers, nullptr); }
 
-    /// Columns that a person hasn't set get room for the longest numbers of this table.
-    void makeRoomFor(const ControlTable &table);
+    /// Columns that a person hasn't set get room for the longest numbers of these tables.
+    void makeRoomFor(const std::vector<const ControlTable *> &tables);
     void applyColumnWidths(); ///< after the model's columns have changed
     const std::map<int, int> &columnWidths() const { return m_widths; } ///< by ColumnKind
     void setColumnWidths(std::map<int, int> widths);
@@ -43,6 +43,8 @@ protected:
     void startDrag(Qt::DropActions actions) override;
 
 private:
+    void makeRoomFor(const ControlTable &table);
+    void needRoom(ColumnKind kind, int width);
     std::function<bool(const QModelIndex &)> m_gate;
     std::map<int, int> m_widths;
     std::map<int, int> m_needed; ///< by ColumnKind, of this table's numbers
