@@ -145,7 +145,7 @@ private slots:
         const ControlTablePtr one = tableOf(model, 45);
         const ControlTablePtr two = tableOf(other, 45);
         QCOMPARE(holdDifferent(compared(*one, name, raw), compared(*two, name, otherRaw)), differs);
-        ComparedRegister unread = compared(*two, name, otherRaw);
+        ComparedCell unread = compared(*two, name, otherRaw);
         unread.raw.reset();
         QVERIFY(!holdDifferent(compared(*one, name, raw), unread));
     }
@@ -188,8 +188,8 @@ private slots:
         one.values = {{1, QStringLiteral("Velocity")}, {3, QStringLiteral("Position")}};
         Field other = one;
         other.values = {{7, QStringLiteral("Velocity")}};
-        const ComparedRegister from{&one, effective(one, {}), 4096, 1};
-        const ComparedRegister to{&other, effective(other, {}), 4096, 7};
+        const ComparedCell from{&one, effective(one, {}), 4096, 1};
+        const ComparedCell to{&other, effective(other, {}), 4096, 7};
         QVERIFY(holdDifferent(from, to)); // in their numbers: what is written differs
         QCOMPARE(carriedOver(from, 1, to).value_or(-1), std::int64_t(7));
         QVERIFY(!carriedOver(from, 3, to));
@@ -203,7 +203,7 @@ private:
         return TableFixture::catalog().findOrRaw(static_cast<std::uint16_t>(model), firmware);
     }
 
-    static ComparedRegister compared(const ControlTable &table, const QString &name, std::int64_t raw)
+    static ComparedCell compared(const ControlTable &table, const QString &name, std::int64_t raw)
     {
         const Field *field = table.find(name);
         if (!field)

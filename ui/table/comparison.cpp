@@ -53,7 +53,7 @@ bool isSharedSetting(const Field &field)
            && field.name != u"Homing Offset" && field.name != u"Torque Enable" && field.name != u"LED";
 }
 
-bool meanTheSame(const ComparedRegister &one, const ComparedRegister &other)
+bool meanTheSame(const ComparedCell &one, const ComparedCell &other)
 {
     if (one.field == other.field && one.effective == other.effective)
         return true;
@@ -62,12 +62,12 @@ bool meanTheSame(const ComparedRegister &one, const ComparedRegister &other)
            && (!isAngle(one.effective) || one.resolution == other.resolution);
 }
 
-bool holdDifferent(const ComparedRegister &one, const ComparedRegister &other)
+bool holdDifferent(const ComparedCell &one, const ComparedCell &other)
 {
     return one.raw && other.raw && (*one.raw != *other.raw || !meanTheSame(one, other));
 }
 
-Result<std::int64_t> carriedOver(const ComparedRegister &from, std::int64_t raw, const ComparedRegister &to)
+Result<std::int64_t> carriedOver(const ComparedCell &from, std::int64_t raw, const ComparedCell &to)
 {
     std::int64_t there = raw;
     if (!meanTheSame(from, to)) {

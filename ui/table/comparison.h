@@ -7,7 +7,7 @@
 namespace dynascope {
 
 /// What a register of one device holds, and what its numbers mean there now.
-struct ComparedRegister {
+struct ComparedCell {
     const Field *field = nullptr;
     EffectiveField effective;
     int resolution = 4096; ///< pulses per revolution
@@ -19,13 +19,13 @@ struct ComparedRegister {
 bool isSharedSetting(const Field &field);
 
 /// Do numbers in these two registers mean the same?
-bool meanTheSame(const ComparedRegister &one, const ComparedRegister &other);
+bool meanTheSame(const ComparedCell &one, const ComparedCell &other);
 
 /// Both are known and differ, as numbers or in what these mean.
-bool holdDifferent(const ComparedRegister &one, const ComparedRegister &other);
+bool holdDifferent(const ComparedCell &one, const ComparedCell &other);
 
 /// The raw value that means in `to` what `raw` means in `from`, allowed there: by its name or, with another scale, the
 /// nearest. Refused where nothing in `to` means that.
-Result<std::int64_t> carriedOver(const ComparedRegister &from, std::int64_t raw, const ComparedRegister &to);
+Result<std::int64_t> carriedOver(const ComparedCell &from, std::int64_t raw, const ComparedCell &to);
 
 } // namespace dynascope

@@ -81,7 +81,7 @@ private:
     Device &deviceAt(int device) const { return *m_devices[static_cast<std::size_t>(device)]; }
     const Field &field(int row, int device) const; ///< another device's where it has none
     const FieldValue &value(int row, int device) const;
-    ComparedRegister compared(int row, int device) const;
+    ComparedCell compared(int row, int device) const;
     QVariant rowData(int row, const Column &column, int role) const;
     QVariant valueData(int row, int device, int role) const;
     QVariant allData(int row, int role) const;

@@ -82,7 +82,7 @@ bool FieldTableModel::writeAll(int row, std::int64_t raw)
         emit refused(tr("Nothing was written. %1").arg(reason));
         return false;
     }
-    const ComparedRegister reference = compared(row, m_rows.deviceWith(row));
+    const ComparedCell reference = compared(row, m_rows.deviceWith(row));
     std::vector<std::pair<int, std::int64_t>> wanted;
     QStringList reasons;
     for (int device = 0; device < static_cast<int>(m_devices.size()); ++device) {
@@ -106,7 +106,7 @@ std::optional<std::int64_t> FieldTableModel::forAll(const QModelIndex &cell) con
     const int device = columnAt(cell.column()).device;
     if (row < 0 || !value(row, device).raw)
         return std::nullopt;
-    const ComparedRegister own = compared(row, device);
+    const ComparedCell own = compared(row, device);
     const Result<std::int64_t> there = carriedOver(own, *own.raw, compared(row, m_rows.deviceWith(row)));
     return there ? std::optional(*there) : std::nullopt;
 }

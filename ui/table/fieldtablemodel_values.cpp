@@ -21,7 +21,7 @@ const FieldValue &FieldTableModel::value(int row, int device) const
     return index < 0 ? nothing : deviceAt(device).value(index);
 }
 
-ComparedRegister FieldTableModel::compared(int row, int device) const
+ComparedCell FieldTableModel::compared(int row, int device) const
 {
     const Device &of = deviceAt(device);
     const int index = m_rows.fieldOf(row, device);
@@ -126,7 +126,7 @@ QString FieldTableModel::absence(int row, int device) const
 bool FieldTableModel::isMixed(int row) const
 {
     const int first = m_rows.deviceWith(row);
-    const ComparedRegister reference = compared(row, first);
+    const ComparedCell reference = compared(row, first);
     for (int device = first + 1; device < static_cast<int>(m_devices.size()); ++device) {
         if (m_rows.fieldOf(row, device) >= 0 && holdDifferent(reference, compared(row, device)))
             return true;
