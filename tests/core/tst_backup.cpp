@@ -96,7 +96,12 @@ private slots:
             const auto outcome = world.apply(plan->settings);
             QVERIFY2(outcome && outcome->isDone(), qPrintable(test::problemsOf(outcome)));
             QVERIFY(!world.writes().isEmpty());
-            QCOMPARE(unequal(compareBackups(*file, *world.backup())), QStringList());
+            QStringList left = unequal(compareBackups(*file, *world.backup()));
+            for (const RestoreRow &row : plan->rows) { // a profile beyond a limit that was lowered after it
+                if (row.state == State::NotCarried)
+                    left.removeIf([&](const QString &text) { return text.startsWith(row.name + u':'); });
+            }
+            QCOMPARE(left, QStringList());
             const auto again = world.plan(*file);
             QVERIFY(again->writesNothing());
             QVERIFY(world.apply(again->settings)->isDone());

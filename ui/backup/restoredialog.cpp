@@ -51,7 +51,8 @@ RestoreDialog::RestoreDialog(Device &device, BackupCommands &commands, Backup ba
     m_list->setAccessibleName(tr("What would be written"));
     m_list->setReadOnly(true);
     m_list->setTabChangesFocus(true);
-    m_list->setMinimumSize(560, 220);
+    m_list->setMinimumHeight(220);
+    setMinimumWidth(640);
     form()->addRow(from);
     form()->addRow(m_list);
     form()->addRow(m_calibration);

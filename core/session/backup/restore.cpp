@@ -184,7 +184,10 @@ private:
                 row.field = -1;
                 continue;
             }
-            if (isSameFirmware()) {
+            // One register beyond what another one allows may be so in a device, which then takes neither anew.
+            const RegisterLookup nobody = [](QStringView) { return std::optional<std::int64_t>(); };
+            const bool isEverWrong = !checkRange(field, effective(field, nobody), row.wanted);
+            if (isSameFirmware() && isEverWrong) {
                 const QString where = m_backup.file.isEmpty() ? m_backup.name()
                                                               : QStringLiteral("%1:%2:%3")
                                                                     .arg(m_backup.file)

@@ -41,8 +41,9 @@ struct RestorePlan {
 };
 
 /// `now`: what the device holds, just read. Never Torque Enable, a goal, ID or baud rate. To another firmware by name;
-/// what it hasn't, or means something else by, or bounds tighter is NotCarried. InvalidArgument: the file is of another
-/// model, or a register of it is beyond its range (with its place in the file), or `only`/`except` name no register;
+/// what it hasn't, or means something else by, or bounds tighter is NotCarried,
+/// and so is what another register of the file forbids. InvalidArgument: the file is of another
+/// model, or a register of it is beyond any range (with its place in the file), or `only`/`except` name no register;
 /// nothing is to be written then.
 Result<RestorePlan> planRestore(const Backup &backup, const Backup &now, const DevicePlace &place,
                                 const RestoreOptions &options);
