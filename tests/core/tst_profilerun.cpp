@@ -139,7 +139,7 @@ private slots:
         QVERIFY(program.rest());
         QVERIFY(!program.run.profile() && !program.run.comparison());
         QVERIFY(program.run.fault());
-        QVERIFY2(program.run.fault()->text.contains(u"arm.yaml:8:16:"_s), qPrintable(program.run.fault()->text));
+        QVERIFY2(program.run.fault()->text.contains(u"arm.yaml:9:16:"_s), qPrintable(program.run.fault()->text));
         QVERIFY(!program.run.planFor({}, true));
         QVERIFY(program.apply());
         QCOMPARE(m_writes, 0);
@@ -178,7 +178,11 @@ private slots:
     {
         QFETCH(QString, how);
         std::atomic<bool> isGone = false;
-        m_factory->isLost = [&](ByteView packet) { return isGone && packet[4] == 2; };
+        sim::Servo *second = m_factory->simulated.servo(2, ProfileRate);
+        m_factory->onPacket = [&, second](int, ByteView packet) {
+            m_writes += isRegisterWrite(packet) ? 1 : 0;
+            second->setPlugged(!isGone);
+        };
         Program program(*m_factory, m_catalog, m_folder->path());
         QVERIFY(program.compare(m_path));
         const auto when = connect(&program.run, &ProfileRun::jointChanged, this, [&](std::size_t joint) {
@@ -195,8 +199,10 @@ private slots:
             QCOMPARE(program.states().at(1), u"missing"_s);
             QCOMPARE(program.states().at(3), u"as-wanted"_s);
             isGone = false;
-            program.run.compare();
-            QVERIFY(program.rest());
+            for (int i = 0; i < 4 && program.states().at(1) == u"missing"; ++i) { // it boots first
+                program.run.compare();
+                QVERIFY(program.rest());
+            }
         } else if (!program.run.problem().isEmpty()) { // the bus may have been quicker
             QVERIFY2(program.run.problem().contains(u"of 3 joints are done"_s), qPrintable(program.run.problem()));
         }
@@ -211,7 +217,6 @@ private slots:
         QVERIFY(program.apply());
         QCOMPARE(program.run.problem(), QString());
         QVERIFY(program.run.comparison()->isAsWanted());
-        m_factory->isLost = {};
     }
 
     void aJointAtAnotherBaudIsMoved()

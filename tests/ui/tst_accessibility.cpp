@@ -123,7 +123,7 @@ private slots:
         QTest::addColumn<QByteArray>("action");
         for (const char *name :
              {"renameAction", "changeIdAction", "changeBaudAction", "moveManyAction", "factoryResetAction",
-                 "scanOptionsAction", "libraryAction", "shortcutsAction", "aboutAction"})
+                 "scanOptionsAction", "libraryAction", "profileAction", "shortcutsAction", "aboutAction"})
             QTest::newRow(name) << QByteArray(name);
     }
     void dialogs()

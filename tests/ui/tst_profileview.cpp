@@ -92,11 +92,12 @@ struct World {
             return false;
         WindowDriver::type(path);
         WindowDriver::key(Qt::Key_Return);
-        return QTest::qWaitFor([&] { return view()->run().path() == path; });
+        view()->activateWindow(); // there is no window manager here that does
+        return QTest::qWaitFor([&] { return view()->run().path() == path; }) && QTest::qWaitForWindowActive(view());
     }
     bool compare(const QString &path) const
     {
-        return load(path) && QTest::qWaitForWindowActive(view()) && click("compareButton") && rest();
+        return load(path) && click("compareButton") && rest();
     }
     /// "j1: 1 difference", "  Position P Gain: 900 / 640: Differs" of what is shown.
     QStringList rows() const
@@ -166,7 +167,7 @@ private slots:
         QVERIFY(m_world->load(m_path));
         auto *faults = m_world->part<QPlainTextEdit>("profileFaults");
         QTRY_VERIFY(faults->isVisible());
-        QVERIFY2(faults->toPlainText().contains(u"Line 8, column 16: "_s), qPrintable(faults->toPlainText()));
+        QVERIFY2(faults->toPlainText().contains(u"Line 9, column 16: "_s), qPrintable(faults->toPlainText()));
         QVERIFY2(faults->toPlainText().contains(u"XM999"_s), qPrintable(faults->toPlainText()));
         QVERIFY(faults->textInteractionFlags() & Qt::TextSelectableByKeyboard);
         QVERIFY(!m_world->part<QPushButton>("applyButton")->isEnabled());
@@ -188,7 +189,7 @@ private slots:
                  QStringList({u"j1: 1 difference"_s, u"  Position P Gain: 900 / 640: Differs"_s, u"j2: 2 differences"_s,
                               u"  Return Delay Time: 0 µs (0) / 500 µs (250): Differs"_s,
                               shutdownRow(u"Differs"_s, true), u"j3: As wanted"_s, u"j4: 1 difference"_s,
-                              u"  PWM Limit: 100.00 % (885) / 90.40 % (800): Differs"_s}));
+                              u"  PWM Limit: 100.0 % (885) / 90.4 % (800): Differs"_s}));
         QCOMPARE(m_writes, 0);
         QVERIFY(m_world->click("applyButton"));
         const auto *steps = m_world->part<QTreeWidget>("profileSteps");
@@ -206,7 +207,7 @@ private slots:
                               u"  Return Delay Time: 0 µs (0) / 0 µs (0): Written, read back"_s,
                               shutdownRow(u"Written, read back"_s, false), u"j3: As wanted"_s,
                               u"j4: As wanted, 1 written"_s,
-                              u"  PWM Limit: 100.00 % (885) / 100.00 % (885): Written, read back"_s}));
+                              u"  PWM Limit: 100.0 % (885) / 100.0 % (885): Written, read back"_s}));
         QVERIFY2(m_world->note().startsWith(u"4 registers of 3 joints written and read back."_s),
                  qPrintable(m_world->note()));
         const auto *apply = m_world->part<QPushButton>("applyButton");
@@ -311,7 +312,8 @@ private slots:
     {
         use(u"XM430-W350@1000000:1,XM430-W350@57600:2,XL430-W250@1000000:4,XM430-W350@1000000:9"_s);
         std::atomic<bool> isGone = false;
-        m_factory->isLost = [&](ByteView packet) { return isGone && packet[4] == 1; };
+        sim::Servo *first = m_factory->simulated.servo(1, ProfileRate);
+        m_factory->onPacket = [&, first](int, ByteView) { first->setPlugged(!isGone); };
         m_world->window.connectTo(Port, ProfileRate);
         QTRY_VERIFY(!m_world->session.lines().empty() && !m_world->scanner.isRunning());
         QVERIFY(m_world->open());
@@ -322,16 +324,19 @@ private slots:
         QVERIFY2(rows.contains(u"j4: Wrong model"_s), qPrintable(rows.join(u'\n')));
         QCOMPARE(rows.last(), u"XM430-W350: No joint names it"_s);
         QVERIFY(m_world->click("applyButton"));
-        QVERIFY2(m_world->note().contains(u"Not done: J3"_s), qPrintable(m_world->note()));
+        QVERIFY2(m_world->note().contains(u"Not done: j3"_s), qPrintable(m_world->note()));
         auto *move = m_world->part<QCheckBox>("moveJoints");
         QVERIFY(move->isVisible());
         WindowDriver::click(move, QPoint(8, move->height() / 2));
         isGone = true; // behind its comparison
         QVERIFY(m_world->click("writeButton"));
         QVERIFY(m_world->rest());
+        QVERIFY2(m_world->rows().contains(u"j1: Not found"_s), qPrintable(m_world->rows().join(u'\n')));
         isGone = false;
-        QVERIFY(m_world->click("compareButton"));
-        QVERIFY(m_world->rest());
+        for (int i = 0; i < 4; ++i) { // it boots first
+            QVERIFY(m_world->click("compareButton"));
+            QVERIFY(m_world->rest());
+        }
         if (m_world->click("applyButton")) {
             if (move->isVisible() && !move->isChecked())
                 WindowDriver::click(move, QPoint(8, move->height() / 2));
@@ -343,7 +348,7 @@ private slots:
         QCOMPARE(joints[0].state, State::AsWanted);
         QCOMPARE(joints[1].state, State::AsWanted);
         QCOMPARE(joints[2].state, State::Missing);
-        m_factory->isLost = {};
+        m_world.reset();
     }
 
     void savedFromTheBus()
@@ -359,6 +364,7 @@ private slots:
         line->selectAll();
         WindowDriver::type(fresh);
         WindowDriver::key(Qt::Key_Return);
+        m_world->view()->activateWindow();
         QTRY_VERIFY2(m_world->note().startsWith(u"fresh.yaml is saved"_s), qPrintable(m_world->note()));
         QCOMPARE(m_world->view()->run().path(), fresh);
         QCOMPARE(m_world->view()->run().profile()->joints.size(), 4U);
@@ -366,7 +372,6 @@ private slots:
         writeFile(m_folder->path(), u"arm.yaml"_s, "# mine\n" + profileOf(4));
         QVERIFY(QTest::qWaitForWindowActive(m_world->view()));
         QVERIFY(m_world->load(m_path));
-        QVERIFY(QTest::qWaitForWindowActive(m_world->view()));
         QVERIFY(save("saveIntoAction"));
         QTRY_VERIFY2(m_world->note().startsWith(u"arm.yaml is saved"_s), qPrintable(m_world->note()));
         QVERIFY(readFile(m_path).startsWith("# mine\nprofile: 1\n"));

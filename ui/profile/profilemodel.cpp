@@ -16,6 +16,8 @@ namespace {
 
 using Kind = ProfileModel::Kind;
 
+constexpr int RowHeight = 22;
+
 QVariant iconOf(Kind kind)
 {
     switch (kind) {
@@ -246,6 +248,15 @@ QString ProfileModel::stateText(const Joint &joint) const
     return {};
 }
 
+/// What the wanted side says already, its model, isn't said twice.
+QString ProfileModel::heldText(const Found &found, const ProfileJoint &wanted) const
+{
+    const QString place = tr("ID %1, %2, firmware %3").arg(found.id).arg(baudText(found.baudRate)).arg(found.firmware);
+    if (found.modelNumber == wanted.modelNumber)
+        return place;
+    return tr("%1, %2").arg(modelName(m_catalog, found.modelNumber), place);
+}
+
 QString ProfileModel::jointText(const Joint &joint, int column) const
 {
     switch (column) {
@@ -254,10 +265,7 @@ QString ProfileModel::jointText(const Joint &joint, int column) const
     case Held:
         if (!joint.found || !joint.found->found)
             return joint.found ? QStringLiteral("–") : QString();
-        return tr("%1, firmware %2")
-            .arg(profilePlaceText(modelName(m_catalog, joint.found->found->modelNumber), joint.found->found->id,
-                                  joint.found->found->baudRate))
-            .arg(joint.found->found->firmware);
+        return heldText(*joint.found->found, joint.wanted);
     case State: return stateText(joint);
     default: return {};
     }
@@ -330,6 +338,8 @@ QVariant ProfileModel::data(const QModelIndex &index, int role) const
     case Qt::ToolTipRole: return toolTip(index);
     case Qt::DecorationRole: return index.column() == State ? iconOf(kind(index)) : QVariant();
     case Qt::ForegroundRole: return index.column() == State ? inkOf(kind(index)) : QVariant();
+    // The last column decides on the height, with or without its icon.
+    case Qt::SizeHintRole: return index.column() == State ? QSize(0, RowHeight) : QVariant();
     case KindRole: return static_cast<int>(kind(index));
     case Qt::CheckStateRole:
         if (const Joint *joint = isTitle ? jointOf(index) : nullptr)

@@ -64,6 +64,7 @@ private:
     void updateJoint(std::size_t at, const ProfileRun &run);
     void setOthers(const std::vector<Found> &others);
     Kind kindOf(const Joint &joint) const;
+    QString heldText(const Found &found, const ProfileJoint &wanted) const;
     QString jointText(const Joint &joint, int column) const;
     QString registerText(const Joint &joint, int row, int column) const;
     QString otherText(const Found &found, int column) const;

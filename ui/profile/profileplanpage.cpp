@@ -17,6 +17,8 @@ namespace dynascope {
 namespace {
 
 enum Column { What, Now, Then, Where, Columns };
+constexpr int Gap = 16;       ///< behind the widest text of a column
+constexpr int RowHeight = 22; ///< as of the joints and registers
 
 } // namespace
 
@@ -107,15 +109,26 @@ void ProfilePlanPage::fill(const ProfileRun &run)
     for (const JointApply &joint : m_planned->writes.joints)
         addJoint(joint, run.comparison()->joints[joint.joint]);
     m_steps->expandAll();
-    for (const int column : {What, Now, Then})
+    for (const int column : {What, Now, Then}) {
         m_steps->resizeColumnToContents(column);
+        m_steps->setColumnWidth(column, m_steps->columnWidth(column) + Gap);
+    }
+}
+
+QFont ProfilePlanPage::boldFont() const
+{
+    QFont bold = font();
+    bold.setBold(true);
+    return bold;
 }
 
 void ProfilePlanPage::addMoves(const MovePlan &plan)
 {
     for (const MoveStep &step : plan.steps) {
         auto *item = new QTreeWidgetItem(m_steps); // which owns it
-        item->setText(What, plan.devices[step.device].place.name);
+        item->setText(What, tr("Move %1").arg(plan.devices[step.device].place.name));
+        item->setFont(What, boldFont());
+        item->setSizeHint(Where, QSize(0, RowHeight));
         item->setText(Now, step.isBaud() ? baudText(step.from.baudRate) : tr("ID %1").arg(step.from.id));
         item->setText(Then, step.isBaud() ? baudText(step.to.baudRate) : tr("ID %1").arg(step.to.id));
         item->setText(Where, tr("EEPROM; then what differs there"));
@@ -128,9 +141,8 @@ void ProfilePlanPage::addJoint(const JointApply &joint, const JointComparison &c
     auto *item = new QTreeWidgetItem(m_steps); // which owns it
     item->setText(What, joint.name);
     item->setText(Now, profilePlaceText(joint.table->model(), joint.found.id, joint.found.baudRate));
-    QFont bold = font();
-    bold.setBold(true);
-    item->setFont(What, bold);
+    item->setFont(What, boldFont());
+    item->setSizeHint(Where, QSize(0, RowHeight));
     if (joint.needsTorqueOff)
         addStep(*item, tr("Torque off"), tr("On"), tr("Off"), {});
     addWrites(*item, joint, comparison);
@@ -169,6 +181,7 @@ void ProfilePlanPage::addStep(QTreeWidgetItem &under, const QString &what, const
 {
     auto *item = new QTreeWidgetItem(&under); // which owns it
     const QStringList texts{what, now, then, where};
+    item->setSizeHint(Where, QSize(0, RowHeight));
     for (int column = 0; column < Columns; ++column) {
         item->setText(column, texts[column]);
         item->setToolTip(column, plainToolTip(texts[column]));

@@ -93,7 +93,7 @@ void ProfileView::sayPlan()
         sentences << (m_plan->moves() ? tr("Joints are moved first, then what differs is written, each value read back.")
                                       : tr("Only these are written, each value read back."));
     for (const QString &obstacle : m_plan->obstacles())
-        sentences << tr("Not done: %1").arg(asSentence(obstacle));
+        sentences << tr("Not done: %1.").arg(obstacle);
     m_note->say(!why.isEmpty()                 ? MessageKind::Error
                 : m_plan->obstacles().isEmpty() ? MessageKind::Info
                                                 : MessageKind::Warning,
