@@ -55,9 +55,9 @@ private slots:
         TableFixture fixture;
         TableWindow window(fixture);
         Device *device = fixture.add(1, model);
-        UnitPreferences raw;
-        raw.raw = true;
-        window.panel.setUnits(raw);
+        UnitPreferences units;
+        units.raw = true;
+        window.panel.setUnits(units);
         window.panel.setDevices({device});
         const QPersistentModelIndex cell = window.cell(field, ColumnKind::Range);
         int told = 0;
@@ -88,7 +88,7 @@ private slots:
                                         << "−45.8 … 45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
         QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "Position control"
                                << "Position control (raw 3)";
-        QTest::newRow("bits") << "Shutdown" << "0 … 255" << "0 … 255" << "52"
+        QTest::newRow("bits") << "Shutdown" << "" << "" << "52"
                               << "Overheating, Electrical shock, Overload (raw 52)";
         QTest::newRow("no unit") << "ID" << "0 … 252" << "0 … 252" << "1" << "1";
     }
