@@ -171,13 +171,15 @@ void Commissioning::roundEnded(const Result<CommissionRound> &round)
     }
     for (const auto &change : std::exchange(m_edits, {}))
         change();
+    // A round that still waited when STOP came ends as one that was edited: cancelled.
+    const bool stops = m_stops || m_commands.isStopped();
     if (!round) {
-        const bool wasEdited = round.error().kind == ErrorKind::Cancelled && !m_stops && m_line
+        const bool wasEdited = round.error().kind == ErrorKind::Cancelled && !stops && m_line
                                && m_line->state() == BusThread::State::Open;
         if (!wasEdited)
-            return end(m_stops ? tr("Stopped: nothing more is written") : round.error().text);
+            return end(stops ? tr("Stopped: nothing more is written") : round.error().text);
     }
-    const bool goesOn = !m_stops && m_state == State::Running && !m_list.isOver();
+    const bool goesOn = !stops && m_state == State::Running && !m_list.isOver();
     for (const std::size_t joint : round ? round->ticked : std::vector<std::size_t>()) {
         const CommissionFacts &facts = m_list.facts(joint);
         Found found;
@@ -193,7 +195,7 @@ void Commissioning::roundEnded(const Result<CommissionRound> &round)
     if (goesOn)
         this->round();
     else
-        end(m_stops ? tr("Stopped: nothing more is written") : QString());
+        end(stops ? tr("Stopped: nothing more is written") : QString());
 }
 
 void Commissioning::end(const QString &why)
