@@ -37,11 +37,11 @@ private slots:
         const QStringList expected{
             QStringLiteral("[EEPROM]"),
             QStringLiteral("ID | 7 | 3 |  | 1 | 0 … 252 | RW"),
-            QStringLiteral("Operating Mode | 11 | 3 | Position | 3 |  | RW"),
-            QStringLiteral("Max Position Limit | 48 | 3072 | 270.00 ° | 4095 |  | RW"),
+            QStringLiteral("Operating Mode | 11 | 3 | Position | Position |  | RW"),
+            QStringLiteral("Max Position Limit | 48 | 3072 | 270.00 ° | 359.91 ° |  | RW"),
             QStringLiteral("[RAM]"),
-            QStringLiteral("Torque Enable | 64 | ? |  | 0 |  | RW"),
-            QStringLiteral("Goal Position | 116 | -1024 | -90.00 ° |  | 0 … 3072 | RW"),
+            QStringLiteral("Torque Enable | 64 | ? |  | Off |  | RW"),
+            QStringLiteral("Goal Position | 116 | -1024 | -90.00 ° |  | 0.00 … 270.00 ° | RW"),
             QStringLiteral("Present Input Voltage (plot) | 144 | 121 | 12.1 V |  |  | R"),
             QStringLiteral("[Indirect addresses]"),
             QStringLiteral("Indirect Address 1 | 168 | ? |  |  |  | RW"),
@@ -89,12 +89,12 @@ private slots:
         const auto line = [&](int index) { return printed(words).at(index); };
 
         device->setPending(4, 2048);
-        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024 | 90.00 ° |  | 0 … 1024 | RW"));
+        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024 | 90.00 ° |  | 0.00 … 90.00 ° | RW"));
         now += ChangeTracker::PendingMs; // a slow write says what it is about
-        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024>2048 | 90.00 °>180.00 ° |  | 0 … 1024 | RW"));
+        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024>2048 | 90.00 °>180.00 ° |  | 0.00 … 90.00 ° | RW"));
         device->clearPending(4);
         device->setFailed(4, QStringLiteral("nothing came back"));
-        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024! | 90.00 ° |  | 0 … 1024 | RW"));
+        QCOMPARE(line(6), QStringLiteral("Goal Position | 116 | 1024! | 90.00 ° |  | 0.00 … 90.00 ° | RW"));
         const QModelIndex cell = words.mapFromSource(model.indexOf(4, 3));
         QCOMPARE(cell.data(Qt::ToolTipRole).toString(), QStringLiteral("nothing came back"));
         device->setState(Device::State::Silent);

@@ -28,18 +28,18 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Device: return 132;
     case ColumnKind::All: return 132;
     case ColumnKind::Default: return 66;
-    case ColumnKind::Range: return 158;
+    case ColumnKind::Range: return 152;
     case ColumnKind::Access: return 58;
     }
     return 80;
 }
 
 constexpr int WidestName = 256;  ///< longer ones elide: there is more to see
-constexpr int WidestValue = 184; ///< and longer values, which have a tool tip
+constexpr int WidestValue = 164; ///< and longer values, which have a tool tip
 constexpr int WidestOfMany = 152; ///< of one device among several: more of them are to be seen at once
 constexpr int ValueMark = 18;    ///< what a mark at the left of a value takes
-constexpr int WidestDefault = 128;
-constexpr int WidestRange = 236;
+constexpr int WidestDefault = 66; ///< these two beside the plots: what is cut off stands in the tool tip
+constexpr int WidestRange = 152;
 
 int widest(ColumnKind kind)
 {
