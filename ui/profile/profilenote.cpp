@@ -14,6 +14,7 @@ ProfileNote::ProfileNote(QWidget *parent) : QWidget(parent), m_icon(new QLabel(t
 {
     m_text->setObjectName(QStringLiteral("profileNote"));
     m_text->setTextFormat(Qt::PlainText); // names from a file are in it
+    m_text->setAccessibleName(tr("What was found"));
     m_text->setWordWrap(true);
     m_text->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     m_text->setMinimumHeight(2 * m_text->fontMetrics().lineSpacing()); // so that the dialog doesn't jump
