@@ -187,7 +187,13 @@ private slots:
     /// As in the window: bytes, with what the models numbered beside it suggest.
     void tableOfAnUnknownModel()
     {
-        m_bus->set(4, 57600, u"Model Number", 1065);
+        const QTemporaryDir tables;
+        QFile file(tables.filePath(u"own.json"_s));
+        QVERIFY(file.open(QIODevice::WriteOnly));
+        file.write("{\"format\": 2, \"extends\": \"xl430\", \"models\": {\"Own\": {\"number\": 1065}}}");
+        file.close();
+        m_bus = std::make_unique<DxlBus>(u"Own@57600:4"_s, tables.path());
+        QVERIFY(!m_bus->path().isEmpty());
         const Outcome text = m_bus->dxl(u"table 4");
         QCOMPARE(text.err, QString());
         const QStringList lines = text.out.trimmed().split(u'\n');

@@ -70,7 +70,7 @@ void TestDxlPorts::usage_data()
     QTest::newRow("on or off") << u"--port /dev/null torque maybe 1"_s << u"maybe"_s;
     QTest::newRow("torque of nobody") << u"--port /dev/null torque on"_s << u"IDS"_s;
     QTest::newRow("no such reset") << u"--port /dev/null reset some 1"_s << u"some"_s;
-    QTest::newRow("backup of what") << u"--port /dev/null backup 1"_s << u"1"_s;
+    QTest::newRow("backup of what") << u"--port /dev/null backup"_s << u"IDS"_s;
     QTest::newRow("watch nothing") << u"--port /dev/null watch 1"_s << u"FIELD"_s;
     QTest::newRow("no rate") << u"--port /dev/null watch 1 moving --rate 0"_s << u"--rate"_s;
     QTest::newRow("two forms") << u"--port /dev/null --json watch 1 moving --csv"_s << u"--csv and --json"_s;

@@ -4,6 +4,7 @@
 #include "core/sim/ptyserver.h"
 #include "core/sim/servo.h"
 #include "core/table/catalog.h"
+#include "core/table/usertables.h"
 #include "tests/support/dxlprocess.h"
 
 namespace dynascope::test {
@@ -12,13 +13,16 @@ namespace dynascope::test {
 class DxlBus
 {
 public:
-    /// MODEL@BAUD:ID, joined by commas. path() is empty where that failed.
-    explicit DxlBus(const QString &devices)
+    /// MODEL@BAUD:ID, joined by commas; `tables`: a folder of more models, which dxl doesn't know. path() is empty where
+    /// that failed.
+    explicit DxlBus(const QString &devices, const QString &tables = {})
     {
         auto catalog = Catalog::builtIn();
         if (!catalog)
             return;
         m_catalog = std::make_unique<Catalog>(std::move(*catalog));
+        if (!tables.isEmpty())
+            (void)addUserTables(*m_catalog, tables);
         auto bus = std::make_unique<sim::SimulatedBus>(*m_catalog);
         const auto specs = sim::parseServoSpecs(devices, *m_catalog);
         for (const sim::ServoSpec &spec : specs.value_or(std::vector<sim::ServoSpec>()))
