@@ -37,10 +37,10 @@ private slots:
         const QStringList expected{
             QStringLiteral("[EEPROM]"),
             QStringLiteral("ID | 7 | 3 |  | 1 | 0 … 252 | RW"),
-            QStringLiteral("Operating Mode | 11 | 3 | Position | Position |  | RW"),
-            QStringLiteral("Max Position Limit | 48 | 3072 | 270.00 ° | 359.91 ° |  | RW"),
+            QStringLiteral("Operating Mode | 11 | 3 | Position | 3 |  | RW"),
+            QStringLiteral("Max Position Limit | 48 | 3072 | 270.00 ° | 359.91 |  | RW"),
             QStringLiteral("[RAM]"),
-            QStringLiteral("Torque Enable | 64 | ? |  | Off |  | RW"),
+            QStringLiteral("Torque Enable | 64 | ? |  | 0 |  | RW"),
             QStringLiteral("Goal Position | 116 | -1024 | -90.00 ° |  | 0.00 … 270.00 ° | RW"),
             QStringLiteral("Present Input Voltage (plot) | 144 | 121 | 12.1 V |  |  | R"),
             QStringLiteral("[Indirect addresses]"),

@@ -83,10 +83,10 @@ private slots:
         QTest::addColumn<QString>("initial");
         QTest::addColumn<QString>("initialTip");
         QTest::newRow("angle") << "Max Position Limit" << "0.00 … 359.91 °" << "0.00 … 359.91 ° (raw 0 … 4095)"
-                               << "359.91 °" << "359.91 ° (raw 4095)";
+                               << "359.91" << "359.91 ° (raw 4095)";
         QTest::newRow("set by another") << "Goal Velocity" << "−45.8 … 45.8 rev/min"
                                         << "−45.8 … 45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
-        QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "Position control"
+        QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "3"
                                << "Position control (raw 3)";
         QTest::newRow("bits") << "Shutdown" << "" << "" << "52"
                               << "Overheating, Electrical shock, Overload (raw 52)";

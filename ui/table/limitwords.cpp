@@ -122,10 +122,13 @@ QString rangeToolTip(const Field &field, const EffectiveField &effective, int re
 
 QString defaultText(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units)
 {
-    if (!field.initial || units.raw || !field.bits.empty())
-        return rawDefault(field); // the names of several bits are too much for a column
-    const QString name = meaning(field, *field.initial);
-    return name.isEmpty() ? withMinus(valueText(field, effective, resolution, *field.initial, units)) : name;
+    // Names are too much for a column, and the unit stands at the value already.
+    if (!field.initial || units.raw || !field.bits.empty() || !meaning(field, *field.initial).isEmpty())
+        return rawDefault(field);
+    QString text = withMinus(valueText(field, effective, resolution, *field.initial, units));
+    if (const QString symbol = unitSymbol(effective, units); !symbol.isEmpty() && text.endsWith(symbol))
+        text.chop(symbol.size());
+    return text.trimmed();
 }
 
 QString defaultToolTip(const Field &field, const EffectiveField &effective, int resolution,
@@ -134,7 +137,9 @@ QString defaultToolTip(const Field &field, const EffectiveField &effective, int 
     if (!field.initial)
         return {};
     const QString named = meaning(field, *field.initial);
-    return withRaw(named.isEmpty() ? defaultText(field, effective, resolution, units) : named, rawDefault(field));
+    const QString whole = units.raw ? rawDefault(field)
+                                    : withMinus(valueText(field, effective, resolution, *field.initial, units));
+    return withRaw(named.isEmpty() ? whole : named, rawDefault(field));
 }
 
 LimitTexts everyLimitText(const ControlTable &table)
