@@ -37,7 +37,10 @@ bool answersWith(const Bytes &stream, std::uint8_t id, const Bytes &value)
 {
     const Bytes plain = oracle::status(id, 0, value);
     const Bytes alert = oracle::status(id, 0x80, value);
-    if (!std::ranges::search(stream, plain).empty() || !std::ranges::search(stream, alert).empty())
+    const auto holds = [&stream](const Bytes &packet) { // clang 14 can't do std::ranges::search
+        return std::search(stream.begin(), stream.end(), packet.begin(), packet.end()) != stream.end();
+    };
+    if (holds(plain) || holds(alert))
         return true;
     static const Bytes header{0xFF, 0xFF, 0xFD, 0, 0xFE};
     for (auto at = stream.begin();; ++at) { // blocks of fast answers: the CRC covers all from the header on
