@@ -166,8 +166,10 @@ struct ProfileWorld {
     {
         QStringList list;
         for (const sim::WireEntry &entry : bus.log()) {
+            if (!entry.fromController || entry.bytes.size() < 12)
+                continue; // too short for an address
             const auto instruction = static_cast<Instruction>(entry.bytes[7]);
-            if (entry.fromController && instruction != Instruction::Ping && instruction != Instruction::Read
+            if (instruction != Instruction::Ping && instruction != Instruction::Read
                 && instruction != Instruction::SyncRead && instruction != Instruction::BulkRead
                 && instruction != Instruction::FastSyncRead && instruction != Instruction::FastBulkRead)
                 list << QStringLiteral("%1:%2")
