@@ -346,10 +346,9 @@ private slots:
         world.monitor.setPaused(false);
         world.pass(1s);
         world.pass(9s);
-        if (cut)
-            QTRY_COMPARE(world.restarts.count(), 1);
-        else
-            QCOMPARE(world.restarts.count(), 0);
+        for (int i = 0; cut && i < 20 && world.restarts.count() == 0; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), cut ? 1 : 0);
         QCOMPARE(world.state(1, u"Profile Velocity"), cut ? RamState::Lost : RamState::Set);
     }
 
