@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/limitwords.h"
 
-#include "core/table/indirect.h"
 #include "ui/common/texts.h"
 
 #include <QCoreApplication>
@@ -32,36 +31,6 @@ QString withRaw(const QString &text, const QString &raw)
 QString rawDefault(const Field &field)
 {
     return field.initial ? withMinus(QString::number(*field.initial)) : QString();
-}
-
-std::vector<UnitPreferences> everyChoice()
-{
-    std::vector<UnitPreferences> all{
-        {AngleUnit::Degrees}, {AngleUnit::Radians}, {AngleUnit::Turns}, {AngleUnit::Pulses}};
-    UnitPreferences torque, raw;
-    torque.torque = true;
-    raw.raw = true;
-    all.push_back(torque);
-    all.push_back(raw);
-    return all;
-}
-
-/// Of a device fresh from the factory, and with each of its alternates.
-std::vector<EffectiveField> everyMeaning(const Field &field, const ControlTable &table)
-{
-    const auto factory = [&table](QStringView name) {
-        const Field *other = table.find(name);
-        return other ? other->initial : std::nullopt;
-    };
-    std::vector<EffectiveField> all{effective(field, factory)};
-    for (const Alternate &alternate : field.alternates) {
-        all.push_back(effective(field, [&](QStringView name) -> std::optional<std::int64_t> {
-            if (name == alternate.reg && !alternate.values.empty())
-                return alternate.values.front();
-            return factory(name);
-        }));
-    }
-    return all;
 }
 
 } // namespace
@@ -140,24 +109,6 @@ QString defaultToolTip(const Field &field, const EffectiveField &effective, int 
     const QString whole = units.raw ? rawDefault(field)
                                     : withMinus(valueText(field, effective, resolution, *field.initial, units));
     return withRaw(named.isEmpty() ? whole : named, rawDefault(field));
-}
-
-LimitTexts everyLimitText(const ControlTable &table)
-{
-    LimitTexts all;
-    for (const Field &field : table.fields()) {
-        if (indirectAddressNumber(field) > 1 || indirectDataNumber(field) > 1)
-            continue; // the first of them says it
-        for (const EffectiveField &now : everyMeaning(field, table)) {
-            for (const UnitPreferences &units : everyChoice()) {
-                all.ranges << rangeText(field, now, table.resolution(), units);
-                all.defaults << defaultText(field, now, table.resolution(), units);
-            }
-        }
-    }
-    for (QStringList *texts : {&all.ranges, &all.defaults})
-        texts->removeDuplicates();
-    return all;
 }
 
 } // namespace dynascope

@@ -3,7 +3,7 @@
 
 #include "core/table/units.h"
 
-#include <QStringList>
+#include <QString>
 
 namespace dynascope {
 
@@ -19,17 +19,10 @@ QString rangeSource(const EffectiveField &effective);
 /// The range in its unit and raw, and what sets it; for a tool tip.
 QString rangeToolTip(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units);
 
-/// The factory's value by its name or in the unit that was chosen, "180.00 °"; bare where raw numbers were. Empty where
-/// none is stated.
+/// The factory's value as a number in the unit that was chosen, "180.00", which the value beside it names; raw where the
+/// values have names, or raw numbers were chosen. Empty where none is stated.
 QString defaultText(const Field &field, const EffectiveField &effective, int resolution, const UnitPreferences &units);
 QString defaultToolTip(const Field &field, const EffectiveField &effective, int resolution,
                        const UnitPreferences &units); ///< raw, too
-
-/// All that the two can say of a table, whatever is chosen and whatever other registers decide: what a column needs
-/// that nothing shall move.
-struct LimitTexts {
-    QStringList defaults, ranges;
-};
-LimitTexts everyLimitText(const ControlTable &table);
 
 } // namespace dynascope

@@ -4,7 +4,6 @@
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
 #include "ui/table/cellpainter.h"
-#include "ui/table/limitwords.h"
 #include "ui/table/fieldwordsmodel.h"
 #include "ui/table/frozennames.h"
 #include "ui/table/tableheader.h"
@@ -28,7 +27,7 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Device: return 132;
     case ColumnKind::All: return 132;
     case ColumnKind::Default: return 66;
-    case ColumnKind::Range: return 152;
+    case ColumnKind::Range: return 152; // both fit beside the plots; what is cut off stands in the tool tip
     case ColumnKind::Access: return 58;
     }
     return 80;
@@ -38,13 +37,6 @@ constexpr int WidestName = 256;  ///< longer ones elide: there is more to see
 constexpr int WidestValue = 164; ///< and longer values, which have a tool tip
 constexpr int WidestOfMany = 152; ///< of one device among several: more of them are to be seen at once
 constexpr int ValueMark = 18;    ///< what a mark at the left of a value takes
-constexpr int WidestDefault = 66; ///< these two beside the plots: what is cut off stands in the tool tip
-constexpr int WidestRange = 152;
-
-int widest(ColumnKind kind)
-{
-    return kind == ColumnKind::Default ? WidestDefault : kind == ColumnKind::Range ? WidestRange : QWIDGETSIZE_MAX;
-}
 
 } // namespace
 
@@ -96,13 +88,8 @@ void TableView::makeRoomFor(const ControlTable &table)
 {
     const QFontMetrics digits(numberFont(font()));
     const auto need = [&](ColumnKind kind, const QString &text) {
-        needRoom(kind, std::min(widest(kind), digits.horizontalAdvance(text) + 2 * CellMargin + 2));
+        needRoom(kind, digits.horizontalAdvance(text) + 2 * CellMargin + 2);
     };
-    const LimitTexts limits = everyLimitText(table); // a choice of units or a mode shall move no column
-    for (const QString &text : limits.defaults)
-        need(ColumnKind::Default, text);
-    for (const QString &text : limits.ranges)
-        need(ColumnKind::Range, text);
     for (const Field &field : table.fields()) {
         if (field.initial)
             need(ColumnKind::Value, withMinus(QString::number(*field.initial)));
