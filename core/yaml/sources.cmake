@@ -1,4 +1,5 @@
 target_sources(dynascope_core PRIVATE
     yaml/yamledit.cpp yaml/yamledit.h
+    yaml/yamlfaults.cpp yaml/yamlfaults.h
     yaml/yamltree.cpp yaml/yamltree.h
 )

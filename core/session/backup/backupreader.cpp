@@ -2,7 +2,7 @@
 // From the text of a backup to its values, every fault with its line and column.
 #include "core/session/backup/backup.h"
 #include "core/table/nearestnames.h"
-#include "core/yaml/yamltree.h"
+#include "core/yaml/yamlfaults.h"
 
 #include <QCoreApplication>
 
@@ -12,7 +12,6 @@
 namespace dynascope {
 namespace {
 
-constexpr int MostFaults = 10;
 constexpr int LastAddress = 65535; ///< the last address that a packet can name
 
 QString tr(const char *text)
@@ -20,16 +19,13 @@ QString tr(const char *text)
     return QCoreApplication::translate("Backup", text);
 }
 
-QString cut(const QString &text)
-{
-    constexpr qsizetype Most = 40;
-    return text.size() > Most ? text.left(Most) + u'…' : text;
-}
-
-class BackupReader
+class BackupReader : private YamlFaults
 {
 public:
-    BackupReader(const QString &name, const Catalog &catalog) : m_catalog(catalog) { m_backup.file = name; }
+    BackupReader(const QString &name, const Catalog &catalog) : YamlFaults(name), m_catalog(catalog)
+    {
+        m_backup.file = name;
+    }
 
     Result<Backup> read(const YamlNode &root)
     {
@@ -43,22 +39,12 @@ public:
             std::ranges::sort(m_backup.registers, {}, &BackupRegister::field);
             checkIdentity();
         }
-        if (m_faults.isEmpty())
-            return std::move(m_backup);
-        if (m_more > 0)
-            m_faults.append(tr("%1: and %2 more").arg(m_backup.file).arg(m_more));
-        return failure(ErrorKind::BadFile, m_faults.join(u'\n'));
+        if (const Result<void> sound = asResult(); !sound)
+            return tl::unexpected(sound.error());
+        return std::move(m_backup);
     }
 
 private:
-    void say(const YamlNode &where, const QString &what)
-    {
-        if (m_faults.size() < MostFaults)
-            m_faults.append(yamlFailure(m_backup.file, where, what).value().text);
-        else
-            ++m_more;
-    }
-
     bool isBackup(const YamlNode &root)
     {
         const YamlNode *version = root.isMap() ? root.find(u"backup") : nullptr;
@@ -128,7 +114,7 @@ private:
         const YamlNode *number = root.find(u"model-number");
         const Catalog::ModelInfo *model = m_catalog.model(m_backup.modelNumber);
         m_backup.model = modelName(m_catalog, m_backup.modelNumber);
-        if (!number || !m_faults.isEmpty())
+        if (!number || !areNone())
             return;
         const auto isCalled = [&](const QString &name) { return normalizedName(name) == normalizedName(node.text); };
         if (node.kind != YamlNode::Kind::Scalar
@@ -213,8 +199,6 @@ private:
 
     const Catalog &m_catalog;
     Backup m_backup;
-    QStringList m_faults;
-    int m_more = 0;
     std::map<int, int> m_lines; ///< of each field
 };
 

@@ -2,7 +2,7 @@
 // From the text of a profile to its values, every fault with its line and column.
 #include "core/session/profile/profilevalues.h"
 #include "core/table/nearestnames.h"
-#include "core/yaml/yamltree.h"
+#include "core/yaml/yamlfaults.h"
 
 #include <QCoreApplication>
 
@@ -13,18 +13,10 @@ namespace dynascope {
 namespace {
 
 constexpr qsizetype LongestText = 200; ///< of a register's value
-constexpr int MostFaults = 10;
 
 QString tr(const char *text)
 {
     return QCoreApplication::translate("Profile", text);
-}
-
-/// "42" or, of the more that nobody wants to read, "42…"
-QString cut(const QString &text)
-{
-    constexpr qsizetype Most = 40;
-    return text.size() > Most ? text.left(Most) + u'…' : text;
 }
 
 /// A register as it stands in the file, before it is known which table it is for.
@@ -33,10 +25,13 @@ struct Entry {
 };
 using Entries = std::vector<Entry>;
 
-class ProfileReader
+class ProfileReader : private YamlFaults
 {
 public:
-    ProfileReader(const QString &name, const Catalog &catalog) : m_catalog(catalog) { m_profile.file = name; }
+    ProfileReader(const QString &name, const Catalog &catalog) : YamlFaults(name), m_catalog(catalog)
+    {
+        m_profile.file = name;
+    }
 
     Result<Profile> read(const YamlNode &root)
     {
@@ -53,23 +48,12 @@ public:
             checkPlaces();
             checkDefaults();
         }
-        if (m_faults.isEmpty())
-            return std::move(m_profile);
-        if (m_more > 0)
-            m_faults.append(tr("%1: and %2 more").arg(m_profile.file).arg(m_more));
-        return failure(ErrorKind::BadFile, m_faults.join(u'\n'));
+        if (const Result<void> sound = asResult(); !sound)
+            return tl::unexpected(sound.error());
+        return std::move(m_profile);
     }
 
 private:
-    void say(int line, int column, const QString &what)
-    {
-        if (m_faults.size() < MostFaults)
-            m_faults.append(QStringLiteral("%1:%2:%3: %4").arg(m_profile.file).arg(line).arg(column).arg(what));
-        else
-            ++m_more;
-    }
-    void say(const YamlNode &where, const QString &what) { say(where.line, where.column, what); }
-
     bool map(const YamlNode &node, const QString &what, std::initializer_list<QStringView> keys)
     {
         if (!node.isMap()) {
@@ -384,8 +368,6 @@ private:
 
     const Catalog &m_catalog;
     Profile m_profile;
-    QStringList m_faults;
-    int m_more = 0;
     Entries m_forAll;
     std::map<int, Entries> m_forModel;
     std::map<int, const YamlNode *> m_defaultsAt;
