@@ -45,7 +45,7 @@ Result<void> findAt(const Work &work, int baudRate, std::vector<MoveDevice> &dev
             return failure(ErrorKind::NotConfirmed,
                            QStringLiteral("ID %1 at %2 bps: %3; nothing was written")
                                .arg(QString::number(found.id), QString::number(baudRate), found.doubt));
-        MoveDevice device = table ? moveDevice(found, *table, name) : MoveDevice();
+        MoveDevice device = table ? moveDevice(found, *table, name) : moveDevice(found, name);
         if (table) {
             const auto secondary = secondaryIdOf(work, found, *table);
             if (!secondary) {
@@ -54,13 +54,6 @@ Result<void> findAt(const Work &work, int baudRate, std::vector<MoveDevice> &dev
                                    .arg(name, secondary.error().text));
             }
             device.secondaryId = *secondary;
-        } else { // may stay, but nobody knows its registers
-            device.place.id = found.id;
-            device.place.baudRate = found.baudRate;
-            device.place.modelNumber = found.modelNumber;
-            device.place.name = name;
-            device.firmware = found.firmware;
-            device.goal = {found.baudRate, found.id};
         }
         devices.push_back(std::move(device));
     }

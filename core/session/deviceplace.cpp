@@ -24,16 +24,26 @@ DevicePlace placeOf(const Device &device)
 
 MoveDevice moveDevice(const Found &found, const ControlTable &table, const QString &name)
 {
-    MoveDevice device;
+    MoveDevice device = moveDevice(found, name);
     device.place = placeOf(found, table, name);
-    device.firmware = found.firmware;
-    device.goal = {found.baudRate, found.id};
     if (const Field *id = table.find(Known::Id))
         device.idAddress = id->address;
     if (const Field *baud = table.find(Known::BaudRate))
         device.baudAddress = baud->address;
     for (const BaudCode &code : table.description().baudCodes)
         device.rates.emplace_back(code.rate, code.code);
+    return device;
+}
+
+MoveDevice moveDevice(const Found &found, const QString &name)
+{
+    MoveDevice device;
+    device.place.id = found.id;
+    device.place.baudRate = found.baudRate;
+    device.place.modelNumber = found.modelNumber;
+    device.place.name = name;
+    device.firmware = found.firmware;
+    device.goal = {found.baudRate, found.id};
     return device;
 }
 

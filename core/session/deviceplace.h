@@ -14,6 +14,8 @@ DevicePlace placeOf(const Device &device);
 
 /// As a plan of moves has it, at home where it is.
 MoveDevice moveDevice(const Found &found, const ControlTable &table, const QString &name);
+/// The same of a model whose table nobody knows: others may move around it, it stays.
+MoveDevice moveDevice(const Found &found, const QString &name);
 
 /// Where a Factory Reset leaves the device: its table's defaults for what the option doesn't keep.
 DevicePlace placeAfterReset(const Device &device, ResetOption option);

@@ -103,16 +103,7 @@ struct OnLine {
     const Field *secondary() const { return table ? table->find(Known::SecondaryId) : nullptr; }
     MoveDevice asMover() const
     {
-        if (table)
-            return moveDevice(found, *table, name);
-        MoveDevice device;
-        device.place.id = found.id;
-        device.place.baudRate = found.baudRate;
-        device.place.modelNumber = found.modelNumber;
-        device.place.name = name;
-        device.firmware = found.firmware;
-        device.goal = {found.baudRate, found.id};
-        return device;
+        return table ? moveDevice(found, *table, name) : moveDevice(found, name);
     }
 };
 
