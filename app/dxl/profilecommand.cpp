@@ -158,10 +158,10 @@ private:
         return isWrong ? m_work.output.refuse(error) : m_work.output.fail(error);
     }
 
-    Result<void> plan()
+    /// What differs now. `isQuick` as of compare().
+    Result<void> planWrites(bool isQuick)
     {
-        // Who moves must not meet anybody.
-        auto comparison = compare(m_work, m_loaded.profile, !m_work.options.profile.move);
+        auto comparison = compare(m_work, m_loaded.profile, isQuick);
         if (!comparison)
             return tl::unexpected(comparison.error());
         m_comparison = std::move(*comparison);
@@ -169,8 +169,14 @@ private:
         if (!applied)
             return tl::unexpected(applied.error());
         m_plan = std::move(*applied);
-        if (!m_work.options.profile.move)
-            return {};
+        return {};
+    }
+
+    Result<void> plan()
+    {
+        // Who moves must not meet anybody.
+        if (const auto planned = planWrites(!m_work.options.profile.move); !planned || !m_work.options.profile.move)
+            return planned;
         DirectJob job(m_work.bus);
         const auto survey = surveyMoves(job, planProfileSurvey(m_comparison, m_work.catalog, m_options));
         if (!survey)
@@ -266,20 +272,7 @@ private:
         if (const auto moved = moveDevices(job, m_moves, hooks); !moved)
             return moved;
         m_moves = {};
-        return planAfterMoves();
-    }
-
-    Result<void> planAfterMoves()
-    {
-        auto comparison = compare(m_work, m_loaded.profile, true);
-        if (!comparison)
-            return tl::unexpected(comparison.error());
-        m_comparison = std::move(*comparison);
-        auto applied = planProfileApply(m_loaded.profile, m_comparison, m_options);
-        if (!applied)
-            return tl::unexpected(applied.error());
-        m_plan = std::move(*applied);
-        return {};
+        return planWrites(true);
     }
 
     ExitCode write() const
