@@ -9,13 +9,13 @@ namespace {
 
 constexpr int Longest = 64; ///< bytes; a scan should not take longer for it
 
-// Beyond what any servo does.
-constexpr double TurnsPerSecond = 20;
-constexpr double DegreesPerSecond = 10, DegreesOfNoise = 3;
-
-// At rest, torque off: a hand may turn it, and the supply falls when others are plugged in.
-constexpr double RestingTurnsPerSecond = 1, RestingTurns = 1 / 64.0;
-constexpr double RestingDegreesPerSecond = 2, RestingDegreesOfNoise = 2;
+/// Position in turns, temperature in degrees Celsius.
+struct Steadiness {
+    double turns, turnsPerSecond, degrees, degreesPerSecond;
+};
+constexpr Steadiness AnyServo{1 / 8.0, 20, 3, 10}; ///< beyond what any does
+/// Torque off: a hand may turn it, and the supply falls when others are plugged in.
+constexpr Steadiness Resting{1 / 64.0, 1, 2, 2};
 constexpr double RestingVolts = 1, RestingVoltsPerSecond = 20; ///< mere calibration makes two differ by less
 
 /// The most telling first: what doesn't fit beside it is left out.
@@ -36,13 +36,19 @@ struct Stretch {
     {
         return {field.address - begin, field.size, slack, perSecond};
     }
-    VolatileSpan span() const
+    VolatileSpan span(const Steadiness &within) const
     {
         VolatileSpan span;
         span.address = static_cast<std::uint16_t>(begin);
         span.length = static_cast<std::uint16_t>(end - begin);
         if (const Field *tick = find(u"Realtime Tick"); tick && tick->size == 2)
             span.tickAt = tick->address - begin;
+        if (const Field *position = find(u"Present Position"); position && position->size == 4) {
+            const double turn = table.resolution();
+            span.steady.push_back(steady(*position, turn * within.turns, turn * within.turnsPerSecond));
+        }
+        if (const Field *temperature = find(u"Present Temperature"))
+            span.steady.push_back(steady(*temperature, within.degrees, within.degreesPerSecond));
         return span;
     }
 };
@@ -69,16 +75,7 @@ std::optional<Stretch> stretchOf(const ControlTable &table)
 std::optional<VolatileSpan> volatileSpanOf(const ControlTable &table)
 {
     const auto stretch = stretchOf(table);
-    if (!stretch)
-        return std::nullopt;
-    VolatileSpan span = stretch->span();
-    if (const Field *position = stretch->find(u"Present Position"); position && position->size == 4) {
-        const double turn = table.resolution();
-        span.steady.push_back(stretch->steady(*position, turn / 8, turn * TurnsPerSecond));
-    }
-    if (const Field *temperature = stretch->find(u"Present Temperature"))
-        span.steady.push_back(stretch->steady(*temperature, DegreesOfNoise, DegreesPerSecond));
-    return span;
+    return stretch ? std::optional(stretch->span(AnyServo)) : std::nullopt;
 }
 
 std::optional<VolatileSpan> restingSpanOf(const ControlTable &table)
@@ -86,13 +83,7 @@ std::optional<VolatileSpan> restingSpanOf(const ControlTable &table)
     const auto stretch = stretchOf(table);
     if (!stretch)
         return std::nullopt;
-    VolatileSpan span = stretch->span();
-    if (const Field *position = stretch->find(u"Present Position"); position && position->size == 4) {
-        const double turn = table.resolution();
-        span.steady.push_back(stretch->steady(*position, turn * RestingTurns, turn * RestingTurnsPerSecond));
-    }
-    if (const Field *temperature = stretch->find(u"Present Temperature"))
-        span.steady.push_back(stretch->steady(*temperature, RestingDegreesOfNoise, RestingDegreesPerSecond));
+    VolatileSpan span = stretch->span(Resting);
     if (const Field *voltage = stretch->find(u"Present Input Voltage"); voltage && voltage->scale > 0) {
         const double volt = 1 / voltage->scale;
         span.steady.push_back(stretch->steady(*voltage, RestingVolts * volt, RestingVoltsPerSecond * volt));
