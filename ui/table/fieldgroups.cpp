@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/table/fieldgroups.h"
 
+#include "core/session/settings/settingsorder.h"
 #include "core/table/indirect.h"
 
 #include <QCoreApplication>
@@ -119,13 +120,8 @@ std::set<int> decidingFields(const ControlTable &table)
         ++index;
         add(field.gearRatio.numerator);
         add(field.gearRatio.denominator);
-        add(field.minimum.reg);
-        add(field.maximum.reg);
-        for (const Alternate &alternate : field.alternates) {
-            add(alternate.reg);
-            add(alternate.minimum.reg);
-            add(alternate.maximum.reg);
-        }
+        for (const QString &name : limitingRegisters(field))
+            add(name);
     }
     return found;
 }
