@@ -23,7 +23,7 @@ target_sources(dynascope_ui PRIVATE
     table/tableempty.cpp table/tableempty.h
     table/tableheader.cpp table/tableheader.h
     table/tablemenu.cpp table/tablemenu.h
-    table/tablepanel.cpp table/tablepanel.h table/tablepanel_groups.cpp
+    table/tablepanel.cpp table/tablepanel.h table/tablepanel_state.cpp table/tablepanel_groups.cpp
     table/tableroles.h
     table/tablenote.cpp table/tablenote.h
     table/tabletools.cpp table/tabletools.h

@@ -19,9 +19,7 @@
 #include "ui/table/unknownwrite.h"
 
 #include <QClipboard>
-#include <QDataStream>
 #include <QGuiApplication>
-#include <QIODevice>
 #include <QLineEdit>
 #include <QPointer>
 #include <QScrollBar>
@@ -34,7 +32,6 @@
 namespace dynascope {
 namespace {
 
-constexpr quint32 StateVersion = 1;
 constexpr std::size_t MostDevices = 32; ///< columns beyond that nobody compares by eye
 constexpr int LittleHeight = 460; ///< below this the rows need the room more than the help
 
@@ -355,33 +352,6 @@ void TablePanel::addSettingAll(TableMenuActions &actions, const QPersistentModel
         return;
     actions.value = cell.data().toString();
     actions.copyToAll = [this, all, raw = *meant] { m_flow->write(all, raw); };
-}
-
-QByteArray TablePanel::saveState() const
-{
-    QByteArray state;
-    QDataStream out(&state, QIODevice::WriteOnly);
-    out.setVersion(QDataStream::Qt_6_4);
-    out << StateVersion << QMap<int, int>(m_view->columnWidths()) << QMap<QString, bool>(m_folded)
-        << m_help->isFolded();
-    return state;
-}
-
-void TablePanel::restoreState(const QByteArray &state)
-{
-    QDataStream in(state);
-    in.setVersion(QDataStream::Qt_6_4);
-    quint32 version = 0;
-    QMap<int, int> widths;
-    QMap<QString, bool> folded;
-    bool helpFolded = false;
-    in >> version >> widths >> folded >> helpFolded;
-    if (in.status() != QDataStream::Ok || version != StateVersion)
-        return;
-    m_view->setColumnWidths(widths.toStdMap());
-    m_folded = folded.toStdMap();
-    m_help->setFolded(helpFolded);
-    updateGroups();
 }
 
 void TablePanel::showEvent(QShowEvent *event)
