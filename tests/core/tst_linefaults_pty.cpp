@@ -51,6 +51,7 @@ private slots:
         (void)client.readAtLeast(m_answer.size(), 5000); // what was handed on may be lost with the terminal
         QVERIFY(client.seesTheEnd(5000));
         QVERIFY(!QFile::exists(m_link));
+        QTRY_VERIFY(isQuiet()); // the servo goes on answering, and a Ping would collide with that
         set({});
         QTRY_VERIFY(QFile::exists(m_link));
         PtyClient next(m_link, 57600);
@@ -62,6 +63,13 @@ private:
     void set(const LineFaults &faults)
     {
         m_server->call([&](SimulatedBus &bus, LineTime) { bus.setFaults(faults); });
+    }
+
+    bool isQuiet()
+    {
+        bool quiet = false;
+        m_server->call([&](SimulatedBus &bus, LineTime) { quiet = !bus.quietAt(); });
+        return quiet;
     }
 
     const Bytes m_ping = instruction(QStringLiteral("01 01"));
