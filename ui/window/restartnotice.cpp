@@ -88,7 +88,10 @@ void RestartNotice::say()
     const std::vector<Restart> restarts = present();
     if (restarts.empty())
         return;
-    m_said = textOf(restarts);
+    const QString text = textOf(restarts);
+    if (m_messages.text() == text) // a device that comes back, or is read again, restarted once
+        return;
+    m_said = text;
     m_messages.post({MessageKind::Warning, m_said, tr("Set again"), [this] { setAgain(); }, Topic, tr("Show"),
                      [this] { show(); }, true});
 }
