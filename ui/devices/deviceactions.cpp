@@ -161,7 +161,7 @@ void DeviceActions::update()
         return device->isKnownModel() && device->line() == devices.front()->line();
     }));
     m_forget->setEnabled(!this->devices().empty());
-    m_backups->setDevice(one);
+    m_backups->setDevices(devices);
 }
 
 QString DeviceActions::subjectOf(const std::vector<Device *> &devices)
