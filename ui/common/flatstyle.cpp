@@ -16,7 +16,8 @@ namespace {
 constexpr int IconGap = 7;
 constexpr int ButtonPadding = 24; ///< left and right of a button's text, together
 constexpr int ButtonHeight = 28;
-constexpr int HeaderMargin = 6; ///< around the text of a column's head
+constexpr int HeaderMargin = 5; ///< around the text of a column's head
+constexpr int RowPadding = 6;   ///< above and below a row's text, together
 
 /// Buttons show the focus only where the keyboard brought it.
 QColor plainBorder(const QStyleOption *option)
@@ -246,6 +247,8 @@ QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption *option,
                                   const QWidget *widget) const
 {
     QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
+    if (type == CT_ItemViewItem && option)
+        return result.expandedTo(QSize(0, option->fontMetrics.height() + RowPadding));
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
     if (type != CT_PushButton || !button || button->text.isEmpty())
         return result;
@@ -271,7 +274,7 @@ int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const
     switch (metric) {
     case PM_SplitterWidth: return 1; // QSplitter widens the grip of a 1-pixel handle by itself
     case PM_HeaderMargin: return HeaderMargin;
-    case PM_FocusFrameHMargin: return HeaderMargin - 1; // left and right of a cell's text, which stands under its head's
+    case PM_FocusFrameHMargin: return HeaderMargin - 2; // left and right of a cell's text, and of its icon
     case PM_ToolBarFrameWidth: return 0;
     case PM_ToolBarItemMargin: return 4;
     case PM_ToolBarItemSpacing: return 4;

@@ -72,6 +72,7 @@ QWidget *ProfileFileBar::makeEmptyPage(QWidget *parent)
     text->setAlignment(Qt::AlignCenter);
     text->setWordWrap(true);
     text->setFixedWidth(EmptyWidth);
+    text->setMinimumHeight(text->heightForWidth(EmptyWidth)); // which no layout asks of one in its middle
     m_openFirst = new QPushButton(tr("Open a file…"), page);
     m_openFirst->setObjectName(QStringLiteral("openFirstButton"));
     m_saveFirst = new QPushButton(tr("Save what is on the bus as a new file…"), page);
