@@ -57,6 +57,7 @@ ResetManyDialog::ResetManyDialog(const std::vector<Device *> &devices, Session &
     if (!devices.empty() && devices.front()->line())
         connect(devices.front()->line(), &LineSession::stateChanged, this, &ResetManyDialog::check);
     build();
+    m_options->buttons().first()->setFocus();
     check();
 }
 
@@ -103,7 +104,7 @@ void ResetManyDialog::build()
     note->addWidget(m_noteIcon, 0, Qt::AlignTop);
     note->addWidget(m_note, 1);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    m_accept = buttons->addButton(tr("Reset"), QDialogButtonBox::AcceptRole);
+    m_accept = buttons->addButton(tr("&Reset"), QDialogButtonBox::AcceptRole);
     m_accept->setObjectName(QStringLiteral("acceptButton"));
     buttons->button(QDialogButtonBox::Cancel)->setDefault(true); // Return overwrites nobody's EEPROM
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
@@ -149,7 +150,7 @@ void ResetManyDialog::check()
         auto *row =
             new QTreeWidgetItem(m_list, {device->displayName(), placeOnScreen(placeOf(*device)), placeOnScreen(after)});
         row->setToolTip(0, plainToolTip(device->displayName()));
-        parks = parks || (line && after.baudRate != line->baudRate());
+        parks = parks || (line && after.baudRate != line->baudRate() && device->baudRate() == line->baudRate());
         rates.insert(after.baudRate);
     }
     const auto order = resetOrder(devices, option());
