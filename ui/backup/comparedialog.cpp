@@ -48,6 +48,7 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
     auto *filter = new QLineEdit(this);
     filter->setObjectName(QStringLiteral("compareFilter"));
     filter->setPlaceholderText(tr("Filter registers"));
+    filter->setAccessibleName(filter->placeholderText());
     filter->setClearButtonEnabled(true);
     auto *withLabel = new QLabel(tr("&With:"), this);
     withLabel->setBuddy(m_with);
