@@ -23,7 +23,7 @@ Result<void> addIds(const QString &word, std::vector<std::pair<int, int>> &ids)
     const QStringList sides = word.split(u'=');
     const auto from = parseIds(sides.first()), to = parseIds(sides.last());
     if (sides.size() != 2 || !from || !to || from->last - from->first != to->last - to->first)
-        return wrong(QStringLiteral("\"%1\" is no change of IDs: 1=5, or 1-3=2-4").arg(word));
+        return wrong(QStringLiteral("\"%1\" is no change of IDs: 1=5, or 1-3=2-4, or several: 1=2 2=1").arg(word));
     for (int i = 0; i <= from->last - from->first; ++i) {
         for (const auto &[old, now] : ids) {
             if (old == from->first + i || now == to->first + i)

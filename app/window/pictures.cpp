@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/window/pictures.h"
 
+#include "app/window/dialogpictures.h"
 #include "app/window/workshop.h"
 #include "ui/devices/devicepanel.h"
 #include "ui/library/librarydialog.h"
@@ -26,6 +27,7 @@ using namespace std::chrono_literals;
 constexpr std::size_t DemoServos = 7;     ///< six of the arm, one fresh
 constexpr qint64 LongestScan = 15000;     ///< ms; then the picture is taken of what there is
 constexpr auto PlotTime = 8s;             ///< of movement on the plots
+constexpr auto DialogTime = 2s;           ///< for what a dialog reads
 
 /// Brings the window into the state that the pictures show, then takes one step after the other.
 class PictureTaker : public QObject
@@ -33,11 +35,12 @@ class PictureTaker : public QObject
 public:
     PictureTaker(Workshop &workshop, const WindowOptions &options)
         : m_workshop(workshop)
+        , m_dialogs(workshop)
     {
         if (options.pictureDirectory.isEmpty())
             planOne(options.picture);
         else
-            planAll(QDir(options.pictureDirectory));
+            planAll(QDir(QDir(options.pictureDirectory).absolutePath())); // the current one is left for another
         connect(&m_timer, &QTimer::timeout, this, &PictureTaker::waitForDevices);
         m_elapsed.start();
         m_timer.start(100ms);
@@ -89,28 +92,43 @@ private:
     void planAll(const QDir &directory)
     {
         const QString scale = qApp->devicePixelRatio() > 1 ? QStringLiteral("@2x") : QString();
-        const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const char *name) {
+        const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const QString &name) {
             m_steps.push_back({[this, scheme, size] {
                 m_workshop.applyScheme(scheme);
-                shown().resize(size);
+                if (size.isValid())
+                    shown().resize(size);
             }});
-            m_steps.push_back({[this, file = directory.filePath(QString::fromLatin1(name) + scale
-                                                                + QStringLiteral(".png"))] { save(file); }});
+            m_steps.push_back(
+                {[this, file = directory.filePath(name + scale + QStringLiteral(".png"))] { save(file); }});
         };
         const QSize large(1440, 900);
         const QSize small(960, 640);
-        shot(ColorScheme::Light, large, "window-light");
-        shot(ColorScheme::Dark, large, "window-dark");
-        shot(ColorScheme::Light, small, "window-small-light");
-        shot(ColorScheme::Dark, small, "window-small-dark");
+        shot(ColorScheme::Light, large, QStringLiteral("window-light"));
+        shot(ColorScheme::Dark, large, QStringLiteral("window-dark"));
+        shot(ColorScheme::Light, small, QStringLiteral("window-small-light"));
+        shot(ColorScheme::Dark, small, QStringLiteral("window-small-dark"));
+        for (const DialogPictures::One &one : m_dialogs.all()) {
+            for (const auto &step : one.steps)
+                m_steps.push_back({[this, step] { m_dialog = step(); }, DialogTime});
+            shot(ColorScheme::Light, one.size, QLatin1String(one.name) + QStringLiteral("-light"));
+            shot(ColorScheme::Dark, one.size, QLatin1String(one.name) + QStringLiteral("-dark"));
+        }
+        m_steps.push_back({[this] { closeDialog(); }});
         m_steps.push_back({[this] { showBadCables(); }, PlotTime});
-        shot(ColorScheme::Light, large, "health-light");
-        shot(ColorScheme::Dark, large, "health-dark");
-        shot(ColorScheme::Dark, small, "health-small-dark");
+        shot(ColorScheme::Light, large, QStringLiteral("health-light"));
+        shot(ColorScheme::Dark, large, QStringLiteral("health-dark"));
+        shot(ColorScheme::Dark, small, QStringLiteral("health-small-dark"));
         m_steps.push_back({[this] { openLibrary(); }});
         const QSize dialog(1160, 760);
-        shot(ColorScheme::Light, dialog, "library-light");
-        shot(ColorScheme::Dark, dialog, "library-dark");
+        shot(ColorScheme::Light, dialog, QStringLiteral("library-light"));
+        shot(ColorScheme::Dark, dialog, QStringLiteral("library-dark"));
+    }
+
+    void closeDialog()
+    {
+        if (m_dialog)
+            m_dialog->close();
+        m_dialog = nullptr;
     }
 
     /// Bus health with something to see in it: one cable that is bad, one that is poor.
@@ -142,17 +160,18 @@ private:
     {
         if (auto *action = m_workshop.window().findChild<QAction *>(QStringLiteral("libraryAction")))
             action->trigger();
-        m_library = m_workshop.window().findChild<LibraryDialog *>();
-        if (!m_library)
+        auto *library = m_workshop.window().findChild<LibraryDialog *>();
+        if (!library)
             return;
-        m_library->showModel(1020, -1); // XM430-W350
-        m_library->showRegister(QStringLiteral("Goal Current"));
+        m_dialog = library;
+        library->showModel(1020, -1); // XM430-W350
+        library->showRegister(QStringLiteral("Goal Current"));
     }
 
     /// What the pictures are of.
     QWidget &shown() const
     {
-        return m_library ? static_cast<QWidget &>(*m_library) : static_cast<QWidget &>(m_workshop.window());
+        return m_dialog ? static_cast<QWidget &>(*m_dialog) : static_cast<QWidget &>(m_workshop.window());
     }
 
     void save(const QString &file)
@@ -181,7 +200,8 @@ private:
     QTimer m_timer;
     QElapsedTimer m_elapsed;
     std::deque<Step> m_steps;
-    QPointer<LibraryDialog> m_library;
+    DialogPictures m_dialogs;
+    QPointer<QDialog> m_dialog; ///< instead of the window
     bool m_failed = false;
 };
 

@@ -18,6 +18,15 @@ using namespace std::chrono_literals;
 constexpr auto BootTime = 450ms;    ///< most are back after 0.4 s
 constexpr int ReturnAttempts = 8;   ///< some take up to 3 s
 
+/// The line goes along where nobody is left at its own rate.
+void follow(LineSession &line, int from, int to)
+{
+    const bool others = std::ranges::any_of(
+        line.devices(), [](const auto &each) { return each->state() == Device::State::Present; });
+    if (to != from && !others)
+        line.setWorkingBaudRate(to);
+}
+
 } // namespace
 
 void Commands::runAt(Device &device, std::function<Result<void>(Bus &)> operation, Done done)
@@ -127,6 +136,7 @@ void Commands::finishReturn(Device &device, const DevicePlace &from, const Devic
                             const Done &done)
 {
     moved(device.key(), found);
+    follow(*device.line(), from.baudRate, found.baudRate);
     if (isAt(found, to))
         return readAll(device, done);
     readAll(device);
@@ -160,12 +170,7 @@ void Commands::finishChange(DeviceKey key, const DevicePlace &from, const Device
         return report(tl::unexpected(found.error()));
     moved(key, *found);
     if (Device *device = m_session.device(key)) {
-        LineSession *line = device->line();
-        const bool others = std::ranges::any_of(line->devices(), [](const auto &each) {
-            return each->state() == Device::State::Present;
-        });
-        if (found->baudRate != from.baudRate && !others)
-            line->setWorkingBaudRate(found->baudRate);
+        follow(*device->line(), from.baudRate, found->baudRate);
         readAll(*device);
     }
     report({});

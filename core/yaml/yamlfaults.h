@@ -3,7 +3,10 @@
 
 #include "core/yaml/yamltree.h"
 
-#include <QStringList>
+#include <QString>
+
+#include <utility>
+#include <vector>
 
 namespace dynascope {
 
@@ -18,12 +21,16 @@ public:
 
     void say(int line, int column, const QString &what);
     void say(const YamlNode &where, const QString &what) { say(where.line, where.column, what); }
-    bool areNone() const { return m_faults.isEmpty(); }
-    Result<void> asResult() const; ///< BadFile: a line each
+    bool areNone() const { return m_faults.empty(); }
+    Result<void> asResult() const; ///< BadFile: a line each, from top to bottom
 
 private:
     QString m_file;
-    QStringList m_faults;
+    struct Fault {
+        std::pair<int, int> at; ///< line, column
+        QString what;
+    };
+    std::vector<Fault> m_faults;
     int m_more = 0;
 };
 

@@ -87,7 +87,8 @@ private slots:
             "  - { name: mute, model: XM430-W350, id: 6, baud: 1000000, registers: { Shutdown: 52 } }\n"
             "  - { name: lacks, model: XM430-W350, id: 7, baud: 1000000,\n"
             "      registers: { Startup Configuration: 0, Shutdown: 52 } }\n"
-            "  - { name: away, model: XL430-W250, id: 1, baud: 57600 }\n";
+            "  - { name: away, model: XL430-W250, id: 1, baud: 57600 }\n"
+            "  - { name: third, model: XL330-M288, id: 10, baud: 115200 }\n";
         ProfileWorld world(m_catalog,
                            u"XM430-W350@1000000:1,XM430-W350@115200:3,XL430-W250@1000000:4,XM430-W350/40@1000000:5,"
                            "XM430-W350@1000000:6,XM430-W350/40@1000000:7,XL430-W250@57600:1,XL330-M288@1000000:9,"
@@ -98,7 +99,8 @@ private slots:
         QVERIFY2(found, found ? "" : qPrintable(found.error().text));
         using State = JointComparison::State;
         const std::vector<State> states{State::AsWanted,    State::Missing,    State::AtOtherBaud, State::OtherModel,
-                                        State::OldFirmware, State::Unreadable, State::Differs,     State::AsWanted};
+                                        State::OldFirmware, State::Unreadable, State::Differs,     State::AsWanted,
+                                        State::AsWanted};
         for (std::size_t i = 0; i < states.size(); ++i)
             QVERIFY2(found->joints[i].state == states[i],
                      qPrintable(found->joints[i].name + u": "_s + wordOf(found->joints[i].state)));
@@ -108,7 +110,7 @@ private slots:
         QCOMPARE(found->joints[4].why, u"its firmware is 40, the profile asks for 45 or newer"_s);
         QCOMPARE(found->joints[6].rows[0].state, RegisterComparison::State::NotThere);
         QCOMPARE(found->joints[6].rows[1].state, RegisterComparison::State::Same);
-        QCOMPARE(found->others.size(), 1U); // nobody asked at 115 200
+        QCOMPARE(found->others.size(), 1U); // the one at 115 200 is "slow", and no stranger
         QCOMPARE(int(found->others[0].id), 9);
         QCOMPARE(world.writes(), QStringList());
         ProfileReadOptions quick;

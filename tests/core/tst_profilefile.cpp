@@ -261,6 +261,17 @@ joints:
         }
     }
 
+    void faultsGoFromTopToBottom()
+    {
+        const auto profile = profileFromYaml(
+            withRegisters("      Max Position Limit: 500 deg\n      Position P Gainz: 1\n"), u"f.yaml"_s, m_catalog);
+        QVERIFY(!profile);
+        const QStringList faults = profile.error().text.split(u'\n');
+        QCOMPARE(faults.size(), 2);
+        QVERIFY2(faults[0].contains(u"Max Position Limit"), qPrintable(faults[0]));
+        QVERIFY2(faults[1].contains(u"Position P Gainz"), qPrintable(faults[1]));
+    }
+
 private:
     const Catalog m_catalog = test::builtInCatalog();
 };

@@ -56,6 +56,26 @@ QString nameless(const QWidget &in)
     return found.join(QStringLiteral(", "));
 }
 
+/// Keys with Alt that two visible widgets want: neither would be obeyed.
+QString wantedTwice(const QWidget &in)
+{
+    QMap<QString, QStringList> wanted;
+    for (const QWidget *widget : in.findChildren<QWidget *>()) {
+        const auto *button = qobject_cast<const QAbstractButton *>(widget);
+        const auto *label = qobject_cast<const QLabel *>(widget);
+        const QString text = button ? button->text() : label && label->buddy() ? label->text() : QString();
+        const QKeySequence key = QKeySequence::mnemonic(text);
+        if (widget->isVisible() && !key.isEmpty())
+            wanted[key.toString()] << text;
+    }
+    QStringList found;
+    for (const QStringList &texts : std::as_const(wanted)) {
+        if (texts.size() > 1)
+            found << texts.join(QStringLiteral(" / "));
+    }
+    return found.join(QStringLiteral(", "));
+}
+
 } // namespace
 
 /// Nothing that can have the focus is without a name, whatever is open.
@@ -123,7 +143,7 @@ private slots:
         QTest::addColumn<QByteArray>("action");
         for (const char *name :
              {"renameAction", "changeIdAction", "changeBaudAction", "moveManyAction", "factoryResetAction",
-                 "scanOptionsAction", "libraryAction", "profileAction", "shortcutsAction", "aboutAction"})
+                 "scanOptionsAction", "libraryAction", "profileAction", "commissionAction", "compareAction", "shortcutsAction", "aboutAction"})
             QTest::newRow(name) << QByteArray(name);
     }
     void dialogs()
@@ -135,6 +155,7 @@ private slots:
         QWidget *popup = QApplication::activePopupWidget();
         const QWidget *front = popup ? popup : QApplication::activeWindow();
         QCOMPARE(nameless(*front), QString());
+        QCOMPARE(wantedTwice(*front), QString());
     }
 
     void actions()

@@ -123,6 +123,19 @@ private slots:
         QTRY_COMPARE(m_device->raw(u"Torque Enable"), 0);
     }
 
+    void severalGoToAFolder()
+    {
+        m_actions->setDevices({m_device, m_bench->device(4, 1000000)});
+        trigger("backupAction");
+        QFileDialog *asked = nullptr;
+        QTRY_VERIFY((asked = m_window->findChild<QFileDialog *>(u"folderDialog"_s)));
+        m_actions->setDevice(nullptr); // another selection meanwhile
+        asked->selectFile(m_folder->path());
+        static_cast<QDialog *>(asked)->accept();
+        QTRY_COMPARE(QDir(m_folder->path()).entryList({u"*.yaml"_s}).size(), 2);
+        QTRY_COMPARE(m_said, QStringList(u"2 devices are backed up in %1"_s.arg(m_folder->path())));
+    }
+
     void refusesAnotherModelsFile()
     {
         const QString path = m_folder->filePath(u"other.yaml"_s);

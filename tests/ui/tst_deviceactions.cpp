@@ -119,11 +119,12 @@ private slots:
         QVERIFY(!part("acceptButton")->isEnabled());
         QVERIFY2(note().contains(QStringLiteral("would both end at ID 1 at 57600 bps")), qPrintable(note()));
         qobject_cast<QRadioButton *>(part("resetKeepId"))->click();
-        QVERIFY2(note().contains(QStringLiteral("some will be parked")), qPrintable(note()));
+        QVERIFY2(note().contains(QStringLiteral("At the end the line follows to 57")), qPrintable(note()));
         QVERIFY(list->topLevelItem(1)->text(2).startsWith(QStringLiteral("ID 4 at 57")));
         QTest::mouseClick(part("acceptButton"), Qt::LeftButton);
         for (const Device *device : devices)
             QTRY_COMPARE_WITH_TIMEOUT(device->baudRate(), 57600, 10000); // found there by itself
+        QTRY_COMPARE(m_line->baudRate(), 57600);
         QCOMPARE(m_bench->session.devices(), devices);
     }
 

@@ -105,6 +105,15 @@ private slots:
         QTEST(bar.findChild<QLabel *>(QStringLiteral("messageText"))->text(), "shown");
     }
 
+    void whatIsSaidAgainIsCounted()
+    {
+        MessageBar bar;
+        for (int i = 0; i < 2; ++i)
+            bar.post(MessageKind::Warning, QStringLiteral("It has restarted."));
+        QCOMPARE(bar.findChild<QLabel *>(QStringLiteral("messageText"))->text(),
+                 QStringLiteral("It has restarted (2 times)."));
+    }
+
     void actionRunsOnceAndCloses()
     {
         MessageBar bar;

@@ -164,6 +164,24 @@ private slots:
         QCOMPARE(m_world->at(17, Slow)->model(), u"XL430-W250"_s);
     }
 
+    /// One that is selected is no reason to leave the others out; who can't go along is named.
+    void oneSelectedMeansAll()
+    {
+        use(u"XM430-W350@57600:1,XL330-M288@57600:2"_s);
+        QVERIFY(m_world->connectTo(2));
+        m_world->window.findChild<DevicePanel *>()->selectDevice(m_world->at(1, Slow));
+        m_world->window.findChild<QAction *>(u"moveManyAction"_s)->trigger();
+        QVERIFY(QTest::qWaitFor([this] { return m_world->dialog() && m_world->dialog()->run().isSurveyed(); }));
+        QCOMPARE(m_world->part<QTableWidget>("moveTable")->rowCount(), 2);
+        auto *baud = m_world->part<QComboBox>("allBaud");
+        baud->setCurrentIndex(baud->findData(4'500'000));
+        QVERIFY(m_world->click("allToBaudButton"));
+        QVERIFY2(m_world->note().endsWith(u"XL330-M288 #2 can't work at 4.5 Mbps and is left where it is."_s),
+                 qPrintable(m_world->note()));
+        m_world->part<QSpinBox>("newId1")->setValue(9); // by hand
+        QVERIFY2(!m_world->note().contains(u"4.5 Mbps"_s), qPrintable(m_world->note()));
+    }
+
     void helpers()
     {
         QVERIFY(m_world->connectTo(2));
@@ -180,7 +198,8 @@ private slots:
         QCOMPARE(m_world->part<QComboBox>("newBaud0")->currentData().toInt(), Slow);
         QCOMPARE(m_world->part<QComboBox>("newBaud1")->currentData().toInt(), Fast);
         QVERIFY2(m_world->note().contains(u"is parked"_s), qPrintable(m_world->note()));
-        m_world->part<QTableWidget>("moveTable")->clearSelection();
+        m_world->part<QSpinBox>("newId0")->setFocus(); // who types has selected nobody
+        QTRY_VERIFY(!m_world->part<QTableWidget>("moveTable")->selectionModel()->hasSelection());
         QVERIFY(m_world->click("allToBaudButton"));
         QVERIFY2(m_world->note().contains(u"the line follows to 1 Mbps"_s), qPrintable(m_world->note()));
         QVERIFY(m_world->click("acceptButton"));

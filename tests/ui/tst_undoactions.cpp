@@ -9,7 +9,10 @@
 #include <QAbstractItemModelTester>
 #include <QAction>
 #include <QDialog>
+#include <QFileDialog>
+#include <QLabel>
 #include <QPushButton>
+#include <QTemporaryDir>
 #include <QTranslator>
 #include <QTreeView>
 
@@ -144,6 +147,31 @@ private slots:
         QCOMPARE(text(2, JournalColumn::State), u"undone"_s);
         QTRY_VERIFY(!undo->isEnabled()); // still selected, and undone
         QCOMPARE(undo->toolTip(), u"Entry 1 is undone already"_s);
+    }
+
+    void theSelectedBecomeAScript()
+    {
+        m_world->write(u"Moving Threshold", 33);
+        m_world->write(u"LED", 1);
+        m_world->action("journalAction").trigger();
+        QTRY_VERIFY(m_world->dialog("journalDialog"));
+        QDialog &dialog = *m_world->dialog("journalDialog");
+        auto *view = dialog.findChild<QTreeView *>(u"journalView"_s);
+        QTRY_COMPARE(view->model()->rowCount(), 2);
+        view->setCurrentIndex(view->model()->index(1, 0)); // the older one alone
+        QTest::mouseClick(dialog.findChild<QPushButton *>(u"journalScriptButton"_s), Qt::LeftButton);
+        auto *asked = dialog.findChild<QFileDialog *>(u"saveDialog"_s);
+        QVERIFY(asked);
+        const QTemporaryDir folder;
+        asked->selectFile(folder.filePath(u"mine.sh"_s));
+        static_cast<QDialog *>(asked)->accept();
+        QFile file(folder.filePath(u"mine.sh"_s));
+        QTRY_VERIFY(file.exists());
+        QVERIFY(file.open(QIODevice::ReadOnly));
+        const QByteArray script = file.readAll();
+        QVERIFY2(script.contains("write 1 'Moving_Threshold=33'"), script.constData());
+        QVERIFY2(!script.contains("LED"), script.constData());
+        QTRY_VERIFY(dialog.findChild<QLabel *>(u"journalSaid"_s)->text().contains(u"mine.sh"_s));
     }
 
     void theCursorStaysWithItsEntry()

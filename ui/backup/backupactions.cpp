@@ -15,6 +15,14 @@
 
 namespace dynascope {
 
+/// Of several devices, one after the other.
+struct BackupsUnderWay {
+    QString folder;
+    std::vector<DeviceKey> left; ///< the next one last
+    int saved = 0;
+    QStringList problems;
+};
+
 BackupActions::BackupActions(const Workbench &workbench, QWidget *window)
     : QObject(window)
     , m_workbench(workbench)
@@ -48,8 +56,21 @@ QAction *BackupActions::add(const char *name, const char *iconName, const QStrin
     return action;
 }
 
+void BackupActions::setDevices(const std::vector<Device *> &devices)
+{
+    setDevice(devices.size() == 1 ? devices.front() : nullptr);
+    if (devices.size() < 2)
+        return;
+    for (const Device *device : devices)
+        m_several.push_back(device->key());
+    m_save->setText(tr("Back up %1 devices to a folder…").arg(devices.size()));
+    m_save->setEnabled(true);
+}
+
 void BackupActions::setDevice(Device *device)
 {
+    m_several.clear();
+    m_save->setText(tr("Back up to file…"));
     m_device = device ? std::optional(device->key()) : std::nullopt;
     m_save->setEnabled(device);
     m_compare->setEnabled(device);
@@ -76,6 +97,9 @@ void BackupActions::post(MessageKind kind, const QString &text)
 /// Read first: where that fails nobody has chosen a name in vain.
 void BackupActions::save()
 {
+    if (!m_several.empty())
+        return askForFolder(m_window, tr("Back up %1 devices to").arg(m_several.size()),
+                            [this, devices = m_several](const QString &folder) { saveAll(folder, devices); });
     Device *one = device();
     if (!one)
         return;
@@ -91,6 +115,43 @@ void BackupActions::save()
                                here->saveTo(path, backup);
                        });
     });
+}
+
+/// A file for each, named by model, ID and time.
+void BackupActions::saveAll(const QString &folder, const std::vector<DeviceKey> &devices)
+{
+    auto work = std::make_shared<BackupsUnderWay>();
+    work->folder = folder;
+    work->left.assign(devices.rbegin(), devices.rend());
+    saveNext(work);
+}
+
+void BackupActions::saveNext(const std::shared_ptr<BackupsUnderWay> &work)
+{
+    Device *next = nullptr;
+    while (!next && !work->left.empty()) {
+        next = m_workbench.session.device(work->left.back()); // who is gone meanwhile is passed over
+        work->left.pop_back();
+    }
+    if (next) {
+        const QString name = next->displayName();
+        return m_commands.read(*next, [here = QPointer<BackupActions>(this), work, name](const Result<Backup> &backup) {
+            const Result<void> saved =
+                backup ? saveBackup(QDir(work->folder).filePath(suggestedFileName(*backup)), *backup)
+                       : tl::unexpected(backup.error());
+            work->saved += saved ? 1 : 0;
+            if (!saved)
+                work->problems << tr("%1: %2").arg(name, saved.error().text);
+            else if (!backup->unread.isEmpty())
+                work->problems << tr("%1 did not show %2").arg(name, backup->unread.join(u", "));
+            if (here)
+                here->saveNext(work);
+        });
+    }
+    QString text = tr("%1 devices are backed up in %2").arg(work->saved).arg(QDir::toNativeSeparators(work->folder));
+    if (!work->problems.isEmpty())
+        text += tr("; %1").arg(work->problems.join(tr("; ")));
+    post(work->problems.isEmpty() ? MessageKind::Success : MessageKind::Warning, text);
 }
 
 void BackupActions::saveTo(const QString &path, const Backup &backup)

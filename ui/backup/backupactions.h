@@ -9,6 +9,8 @@
 
 namespace dynascope {
 
+struct BackupsUnderWay;
+
 /// Backups of the one device that is selected, as actions for menu and context menu.
 class BackupActions : public QObject
 {
@@ -18,6 +20,7 @@ public:
     BackupActions(const Workbench &workbench, QWidget *window);
 
     void setDevice(Device *device); ///< nullptr: not just one, or it can't be reached
+    void setDevices(const std::vector<Device *> &devices); ///< that can be reached; several can be backed up, too
     std::vector<QAction *> actions() const { return {m_save, m_restore, m_compare, m_store, m_recall}; }
 
 signals:
@@ -29,6 +32,8 @@ private:
     Device *device() const;
     void post(MessageKind kind, const QString &text);
     void save();
+    void saveAll(const QString &folder, const std::vector<DeviceKey> &devices);
+    void saveNext(const std::shared_ptr<BackupsUnderWay> &work);
     void saveTo(const QString &path, const Backup &backup);
     void restoreFromFile();
     void compare();
@@ -41,6 +46,7 @@ private:
     QWidget *m_window;
     BackupCommands m_commands;
     std::optional<DeviceKey> m_device;
+    std::vector<DeviceKey> m_several; ///< none where it is one
     QAction *m_save, *m_restore, *m_compare, *m_store, *m_recall;
 };
 

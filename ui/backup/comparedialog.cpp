@@ -4,6 +4,7 @@
 #include "core/session/session.h"
 #include "ui/backup/comparemodel.h"
 #include "ui/common/filedialogs.h"
+#include "ui/common/texts.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -34,7 +35,7 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
     , m_restore(new QPushButton(tr("&Restore selected…"), this))
 {
     setObjectName(QStringLiteral("compareDialog"));
-    setWindowTitle(tr("Compare %1, ID %2").arg(device.displayName()).arg(device.id()));
+    setWindowTitle(tr("Compare %1").arg(device.displayName()));
     m_with->setObjectName(QStringLiteral("compareWith"));
     m_onlyDifferences->setObjectName(QStringLiteral("onlyDifferences"));
     m_onlyDifferences->setChecked(true);
@@ -47,6 +48,7 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
     auto *filter = new QLineEdit(this);
     filter->setObjectName(QStringLiteral("compareFilter"));
     filter->setPlaceholderText(tr("Filter registers"));
+    filter->setAccessibleName(filter->placeholderText());
     filter->setClearButtonEnabled(true);
     auto *withLabel = new QLabel(tr("&With:"), this);
     withLabel->setBuddy(m_with);
@@ -58,11 +60,14 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_restore, QDialogButtonBox::ActionRole);
     auto *layout = new QVBoxLayout(this);
+    layout->setContentsMargins(24, 24, 24, 16);
+    layout->setSpacing(12);
+    top->setSpacing(8);
     layout->addLayout(top);
     layout->addWidget(m_view, 1);
     layout->addWidget(m_summary);
     layout->addWidget(buttons);
-    resize(820, 520);
+    resize(880, 560);
 
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(filter, &QLineEdit::textChanged, m_model, &CompareModel::setFilter);
@@ -189,16 +194,22 @@ void CompareDialog::update()
     if (!m_here || !m_there) {
         m_restore->setEnabled(false);
         m_restore->setToolTip(tr("Choose first what to compare with"));
+        m_summary->setText(m_summary->text().isEmpty() ? tr("Choose what to compare it with: a backup's file, or another "
+                                                            "device.")
+                                                       : m_summary->text());
         return;
     }
     using State = ComparedRegister::State;
     const std::vector<ComparedRegister> &rows = m_model->rows();
-    m_summary->setText(tr("%1 registers are the same, %2 differ, %3 are only here, %4 only there, %5 not comparable.")
-                           .arg(countOf(rows, State::Same))
-                           .arg(countOf(rows, State::Differs))
-                           .arg(countOf(rows, State::OnlyHere))
-                           .arg(countOf(rows, State::OnlyThere))
-                           .arg(countOf(rows, State::OtherMeaning)));
+    const auto say = [&rows](State state, const QString &text) {
+        const auto count = countOf(rows, state);
+        return count > 0 ? QStringList(text.arg(count)) : QStringList();
+    };
+    const QStringList parts = QStringList(tr("%1 registers are the same").arg(countOf(rows, State::Same)))
+                              + say(State::Differs, tr("%1 differ")) + say(State::OnlyHere, tr("%1 are only here"))
+                              + say(State::OnlyThere, tr("%1 are only there"))
+                              + say(State::OtherMeaning, tr("%1 can't be compared"));
+    m_summary->setText(asSentence(parts.join(tr(", "))));
     const bool isOther = m_here->modelNumber != m_there->modelNumber;
     const QString why = isOther                     ? tr("They are of different models")
                         : selectedNames().isEmpty() ? tr("Select registers first")

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/backup/restoredialog.h"
 
+#include "ui/common/texts.h"
+
 #include <QCheckBox>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -86,6 +88,7 @@ void RestoreDialog::look()
 void RestoreDialog::show(const Result<RestorePlan> &plan)
 {
     m_plan = plan;
+    m_isRead = true;
     QString text;
     if (plan) {
         text = linesOf(*plan, State::Differs, tr("Would be written:"))
@@ -102,9 +105,10 @@ void RestoreDialog::check()
     if (!device())
         return;
     if (!m_plan)
-        return setNote(MessageKind::Error, m_plan.error().text);
+        return m_isRead ? setNote(MessageKind::Error, asSentence(m_plan.error().text))
+                        : setNote(MessageKind::Info, m_plan.error().text, false);
     if (m_plan->writesNothing())
-        return setNote(MessageKind::Error, tr("Nothing would be written."));
+        return setNote(MessageKind::Info, tr("Nothing has to be written."), false);
     if (!torqueAllows())
         return setNote(MessageKind::Error, tr("Torque is on, which locks the EEPROM."));
     QString text = tr("%1 registers will be written and read back.").arg(m_plan->count(State::Differs));

@@ -34,6 +34,7 @@ private:
     QCheckBox *m_calibration;
     QPlainTextEdit *m_list;
     Result<RestorePlan> m_plan;
+    bool m_isRead = false; ///< the plan is one, or says why there is none
     int m_looks = 0; ///< the newest counts
 };
 

@@ -93,4 +93,18 @@ void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suf
     present(*dialog, title);
 }
 
+void askForFolder(QWidget *parent, const QString &title, std::function<void(const QString &path)> take)
+{
+    const QString name = QStringLiteral("folderDialog");
+    if (raiseOpen(*parent, name, title))
+        return;
+    auto *dialog = new QFileDialog(parent, title);
+    dialog->setObjectName(name);
+    dialog->setOption(QFileDialog::DontUseNativeDialog);
+    dialog->setOption(QFileDialog::ShowDirsOnly);
+    dialog->setFileMode(QFileDialog::Directory);
+    QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(take));
+    present(*dialog, title);
+}
+
 } // namespace dynascope

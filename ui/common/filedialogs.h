@@ -20,4 +20,7 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
 void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
                    std::function<void(const QString &path)> open);
 
+/// Asks for a folder that is there, or is made in the dialog. As above.
+void askForFolder(QWidget *parent, const QString &title, std::function<void(const QString &path)> take);
+
 } // namespace dynascope

@@ -16,6 +16,8 @@ namespace {
 constexpr int IconGap = 7;
 constexpr int ButtonPadding = 24; ///< left and right of a button's text, together
 constexpr int ButtonHeight = 28;
+constexpr int HeaderMargin = 5; ///< around the text of a column's head
+constexpr int RowPadding = 6;   ///< above and below a row's text, together
 
 /// Buttons show the focus only where the keyboard brought it.
 QColor plainBorder(const QStyleOption *option)
@@ -174,6 +176,15 @@ void FlatStyle::drawControl(ControlElement element, const QStyleOption *option, 
         painter->fillRect(QRect(option->rect.left(), option->rect.bottom(), option->rect.width(), 1), theme.border);
         return;
     }
+    case CE_HeaderLabel: {
+        const auto *header = qstyleoption_cast<const QStyleOptionHeader *>(option);
+        if (!header)
+            break;
+        QStyleOptionHeader quiet = *header;
+        quiet.palette.setColor(QPalette::ButtonText, colors(option->palette).dimmed);
+        QProxyStyle::drawControl(element, &quiet, painter, widget);
+        return;
+    }
     case CE_Splitter: {
         const ThemeColors &theme = colors(option->palette);
         painter->fillRect(option->rect, (option->state & State_MouseOver) ? theme.accent : theme.border);
@@ -236,6 +247,8 @@ QSize FlatStyle::sizeFromContents(ContentsType type, const QStyleOption *option,
                                   const QWidget *widget) const
 {
     QSize result = QProxyStyle::sizeFromContents(type, option, size, widget);
+    if (type == CT_ItemViewItem && option)
+        return result.expandedTo(QSize(0, option->fontMetrics.height() + RowPadding));
     const auto *button = qstyleoption_cast<const QStyleOptionButton *>(option);
     if (type != CT_PushButton || !button || button->text.isEmpty())
         return result;
@@ -260,6 +273,8 @@ int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const
 {
     switch (metric) {
     case PM_SplitterWidth: return 1; // QSplitter widens the grip of a 1-pixel handle by itself
+    case PM_HeaderMargin: return HeaderMargin;
+    case PM_FocusFrameHMargin: return HeaderMargin - 2; // left and right of a cell's text, and of its icon
     case PM_ToolBarFrameWidth: return 0;
     case PM_ToolBarItemMargin: return 4;
     case PM_ToolBarItemSpacing: return 4;

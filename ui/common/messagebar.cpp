@@ -35,6 +35,11 @@ QString iconName(MessageKind kind)
     return QStringLiteral("info");
 }
 
+QString withoutStop(const QString &text)
+{
+    return text.endsWith(u'.') ? text.chopped(1) : text;
+}
+
 IconTint tintOf(MessageKind kind)
 {
     switch (kind) {
@@ -163,7 +168,7 @@ void MessageBar::show(Message message)
 void MessageBar::updateText()
 {
     const QString text =
-        asSentence(m_count > 1 ? tr("%1 (%2 times)").arg(m_current->text).arg(m_count) : m_current->text);
+        asSentence(m_count > 1 ? tr("%1 (%2 times)").arg(withoutStop(m_current->text)).arg(m_count) : m_current->text);
     m_label->setText(text);
     m_label->setAccessibleName(text);
     QAccessibleEvent event(m_label, QAccessible::NameChanged);

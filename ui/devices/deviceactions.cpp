@@ -46,8 +46,8 @@ DeviceActions::DeviceActions(const Workbench &workbench, QWidget *window)
     m_changeBaud = add(key("changeBaud"), key("baud"), tr("Change baud rate…"), key("Ctrl+Shift+U"),
                        tr("Let this device work at another baud rate"), &DeviceActions::changeBaud);
     m_moveMany = add(key("moveMany"), key("id"), tr("Move to other IDs or baud…"), key("Ctrl+Shift+M"),
-                     tr("New IDs and baud rates for the selected devices, or for all of a line, planned before "
-                        "anything is written"),
+                     tr("New IDs and baud rates for the selected devices, or, with less than two of them, for all "
+                        "at their baud rate, planned before anything is written"),
                      &DeviceActions::moveMany);
     m_workAtBaud = add(key("workAtBaud"), key("parked"), tr("Work at this baud"), key("Ctrl+Shift+W"),
                        tr("Move the line to this baud rate; devices at others are parked"), &DeviceActions::workAtBaud);
@@ -161,7 +161,7 @@ void DeviceActions::update()
         return device->isKnownModel() && device->line() == devices.front()->line();
     }));
     m_forget->setEnabled(!this->devices().empty());
-    m_backups->setDevice(one);
+    m_backups->setDevices(devices);
 }
 
 QString DeviceActions::subjectOf(const std::vector<Device *> &devices)
@@ -338,7 +338,8 @@ void DeviceActions::moveMany()
         return;
     std::vector<Device *> devices = reachable();
     std::erase_if(devices, [this](const Device *device) { return device->line() != m_line; });
-    if (devices.empty()) {
+    if (devices.size() < 2) { // of one there are Change ID and Change baud rate
+        devices.clear();
         for (const auto &device : m_line->devices()) {
             if (m_baudRate == 0 || device->baudRate() == m_baudRate)
                 devices.push_back(device.get());

@@ -123,13 +123,13 @@ bool DeviceDialog::torqueAllows() const
     return !m_device || !m_device->isTorqueOn() || m_torqueOff->isChecked();
 }
 
-void DeviceDialog::setNote(MessageKind kind, const QString &text)
+void DeviceDialog::setNote(MessageKind kind, const QString &text, bool mayAccept)
 {
     const LineSession *line = m_device ? m_device->line() : nullptr;
     const bool reachable = !line || line->state() == BusThread::State::Open;
     m_noteKind = reachable ? kind : MessageKind::Error;
     m_note->setText(reachable ? text : tr("%1 isn't open now.").arg(portText(line->name())));
-    m_accept->setEnabled(m_noteKind != MessageKind::Error);
+    m_accept->setEnabled(mayAccept && m_noteKind != MessageKind::Error);
     drawNote();
 }
 

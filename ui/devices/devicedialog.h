@@ -33,7 +33,7 @@ protected:
     void leaveTorque();              ///< what it does needs no torque off first
 
     /// Why it can't be done, or what it will mean. An error disables the button.
-    void setNote(MessageKind kind, const QString &text);
+    void setNote(MessageKind kind, const QString &text, bool mayAccept = true); ///< never with an error
     /// The torque has to be off: says so where it is on, with the box that turns it off. False: it stands in the way.
     bool torqueAllows() const;
     /// Called at start, when the device changes and when the torque box is ticked.

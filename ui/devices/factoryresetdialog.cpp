@@ -9,6 +9,8 @@
 #include <QLabel>
 #include <QRadioButton>
 
+#include <algorithm>
+
 namespace dynascope {
 
 FactoryResetDialog::FactoryResetDialog(Device &device, Commands &commands, QWidget *parent)
@@ -75,7 +77,12 @@ void FactoryResetDialog::check()
                       "The device restarts with torque off.");
     if (device()->isTorqueOn())
         text += QLatin1Char(' ') + tr("It is under torque now: what it holds may fall.");
-    if (line && place.baudRate != line->baudRate())
+    const bool isAlone = line && std::ranges::none_of(line->devices(), [this](const auto &each) {
+        return each.get() != device() && each->state() == Device::State::Present;
+    });
+    if (isAlone && place.baudRate != line->baudRate())
+        text += QLatin1Char(' ') + tr("The line follows it to %1.").arg(baudText(place.baudRate));
+    else if (line && place.baudRate != line->baudRate())
         text += QLatin1Char(' ') + tr("The line works at %1, so it will be parked.").arg(baudText(line->baudRate()));
     setNote(MessageKind::Warning, text);
 }

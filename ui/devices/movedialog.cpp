@@ -216,6 +216,8 @@ QString MoveDialog::whatFollows() const
     else if (anyElsewhere)
         text += QLatin1Char(' ')
                 + tr("Who goes elsewhere is parked: neither polled nor plotted until the line works there.");
+    if (!m_wishes->leftOut().isEmpty())
+        text += QLatin1Char(' ') + m_wishes->leftOut();
     return text;
 }
 
@@ -244,8 +246,8 @@ void MoveDialog::showIdle()
                                         : tr("%1 of them are under torque, which locks ID and baud rate.").arg(held));
     else {
         ready = true;
-        const QString problem = m_run.problem().isEmpty() ? QString() : asSentence(m_run.problem()) + QLatin1Char(' ');
-        setNote(problem.isEmpty() ? MessageKind::Info : MessageKind::Error, problem + whatFollows());
+        const bool isWell = m_run.problem().isEmpty();
+        setNote(isWell ? MessageKind::Info : MessageKind::Error, isWell ? whatFollows() : asSentence(m_run.problem()));
     }
     m_accept->setText(tr("&Carry Out"));
     m_accept->setEnabled(ready);

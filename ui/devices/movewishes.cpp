@@ -81,6 +81,7 @@ QWidget *MoveWishes::makeHelpers()
     m_number->setToolTip(tr("Give the selected rows, or all, IDs one after the other"));
     m_baud->setObjectName(QStringLiteral("allBaud"));
     m_baud->setAccessibleName(tr("Baud rate for all"));
+    m_baud->setSizeAdjustPolicy(QComboBox::AdjustToContents);
     m_allToBaud->setObjectName(QStringLiteral("allToBaudButton"));
     m_allToBaud->setToolTip(tr("Give the selected rows, or all, this baud rate, where the model offers it"));
     m_swap->setObjectName(QStringLiteral("swapButton"));
@@ -194,12 +195,17 @@ void MoveWishes::addRow(const Device &device, const std::function<bool(int)> &of
     if (!m_rows.empty())
         setTabOrder(m_rows.back().baud, id);
     setTabOrder(id, baud);
-    connect(id, &QSpinBox::valueChanged, this, &MoveWishes::changed);
-    connect(baud, &QComboBox::currentIndexChanged, this, &MoveWishes::changed);
+    const auto chosenHere = [this] {
+        m_leftOut.clear();
+        emit changed();
+    };
+    connect(id, &QSpinBox::valueChanged, this, chosenHere);
+    connect(baud, &QComboBox::currentIndexChanged, this, chosenHere);
     m_rows.push_back({device.key(), id, baud});
 }
 
-/// The wheel scrolls the table: over an editor that hasn't the focus it would renumber somebody.
+/// The wheel scrolls the table: over an editor that hasn't the focus it would renumber somebody. And who types into an
+/// editor has selected nobody: the buttons above are about all rows.
 bool MoveWishes::eventFilter(QObject *watched, QEvent *event)
 {
     const auto *editor = qobject_cast<QWidget *>(watched);
@@ -207,6 +213,8 @@ bool MoveWishes::eventFilter(QObject *watched, QEvent *event)
         event->ignore();
         return true;
     }
+    if (event->type() == QEvent::FocusIn)
+        QMetaObject::invokeMethod(m_table, &QTableWidget::clearSelection, Qt::QueuedConnection); // the view selects it
     return QWidget::eventFilter(watched, event);
 }
 
@@ -273,12 +281,19 @@ void MoveWishes::number()
 
 void MoveWishes::allToBaud()
 {
+    QStringList left;
     for (const std::size_t row : chosen()) {
         const QSignalBlocker blocker(m_rows[row].baud);
         const int at = m_rows[row].baud->findData(m_baud->currentData());
         if (at >= 0 && m_rows[row].baud->isEnabled())
             m_rows[row].baud->setCurrentIndex(at);
+        else
+            left << m_table->item(static_cast<int>(row), DeviceColumn)->text();
     }
+    m_leftOut = left.isEmpty() ? QString()
+               : left.size() == 1
+                   ? tr("%1 can't work at %2 and is left where it is.").arg(left.front(), m_baud->currentText())
+                   : tr("%1 can't work at %2 and are left where they are.").arg(left.join(tr(", ")), m_baud->currentText());
     emit changed();
 }
 

@@ -29,6 +29,7 @@ public:
     void setDevices(const std::vector<const Device *> &devices, const std::function<bool(int)> &offers);
     void showPlan(const MovePlan &plan);
     std::map<DeviceKey, MovePlace> wishes() const;
+    QString leftOut() const { return m_leftOut; } ///< whom the last wish of one baud rate for all left out, if any
 
 signals:
     void changed(); ///< by a person
@@ -60,6 +61,7 @@ private:
     QPushButton *m_swap;
     QTableWidget *m_table;
     std::vector<Row> m_rows;
+    QString m_leftOut;
 };
 
 } // namespace dynascope

@@ -18,6 +18,7 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <set>
 
 namespace dynascope {
 namespace {
@@ -56,6 +57,7 @@ ResetManyDialog::ResetManyDialog(const std::vector<Device *> &devices, Session &
     if (!devices.empty() && devices.front()->line())
         connect(devices.front()->line(), &LineSession::stateChanged, this, &ResetManyDialog::check);
     build();
+    m_options->buttons().first()->setFocus();
     check();
 }
 
@@ -102,7 +104,7 @@ void ResetManyDialog::build()
     note->addWidget(m_noteIcon, 0, Qt::AlignTop);
     note->addWidget(m_note, 1);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
-    m_accept = buttons->addButton(tr("Reset"), QDialogButtonBox::AcceptRole);
+    m_accept = buttons->addButton(tr("&Reset"), QDialogButtonBox::AcceptRole);
     m_accept->setObjectName(QStringLiteral("acceptButton"));
     buttons->button(QDialogButtonBox::Cancel)->setDefault(true); // Return overwrites nobody's EEPROM
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
@@ -142,12 +144,14 @@ void ResetManyDialog::check()
     const LineSession *line = devices.front()->line();
     m_list->clear();
     bool parks = false;
+    std::set<int> rates;
     for (const Device *device : devices) {
         const DevicePlace after = placeAfterReset(*device, option());
         auto *row =
             new QTreeWidgetItem(m_list, {device->displayName(), placeOnScreen(placeOf(*device)), placeOnScreen(after)});
         row->setToolTip(0, plainToolTip(device->displayName()));
-        parks = parks || (line && after.baudRate != line->baudRate());
+        parks = parks || (line && after.baudRate != line->baudRate() && device->baudRate() == line->baudRate());
+        rates.insert(after.baudRate);
     }
     const auto order = resetOrder(devices, option());
     const bool isOpen = line && line->state() == BusThread::State::Open;
@@ -157,12 +161,19 @@ void ResetManyDialog::check()
         return setNote(MessageKind::Error, asSentence(order.error().text));
     QString text =
         tr("Limits, gains, modes and offsets go back to the factory's values; they can't be brought back. "
-           "What survives is what stands under \"Afterwards\". One after the other restarts with torque off, "
+           "Back up first what you may want again. One after the other restarts with torque off, "
            "and is looked for at its new place.");
     const auto held = std::ranges::count_if(devices, &Device::isTorqueOn);
     if (held > 0)
         text += QLatin1Char(' ') + tr("%1 are under torque now: what they hold may fall.").arg(held);
-    if (parks)
+    const bool areAll = line && !rates.contains(line->baudRate())
+                        && std::ranges::none_of(line->devices(), [&devices](const auto &each) {
+                               return each->state() == Device::State::Present
+                                      && std::ranges::find(devices, each.get()) == devices.end();
+                           });
+    if (areAll && rates.size() == 1)
+        text += QLatin1Char(' ') + tr("At the end the line follows to %1.").arg(baudText(*rates.begin()));
+    else if (parks)
         text += QLatin1Char(' ') + tr("The line works at %1, so some will be parked.").arg(baudText(line->baudRate()));
     setNote(MessageKind::Warning, text);
 }

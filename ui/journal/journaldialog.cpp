@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/journal/journaldialog.h"
 
+#include "core/session/journal/journaltexts.h"
+#include "ui/common/filedialogs.h"
 #include "ui/journal/journalmodel.h"
 
 #include <QDialogButtonBox>
+#include <QDir>
 #include <QHeaderView>
+#include <QLabel>
 #include <QPushButton>
+#include <QSaveFile>
 #include <QTreeView>
 #include <QVBoxLayout>
 
@@ -20,25 +25,37 @@ JournalDialog::JournalDialog(const Workbench &workbench, QWidget *window)
     , m_view(new QTreeView(this))
     , m_undo(new QPushButton(tr("&Undo"), this))
     , m_redo(new QPushButton(tr("&Redo"), this))
+    , m_script(new QPushButton(tr("Save as &script…"), this))
+    , m_said(new QLabel(this))
 {
     setObjectName(QStringLiteral("journalDialog"));
     setWindowTitle(tr("Journal"));
     makeView();
     m_undo->setObjectName(QStringLiteral("journalUndoButton"));
     m_redo->setObjectName(QStringLiteral("journalRedoButton"));
-    for (QPushButton *button : {m_undo, m_redo})
+    m_script->setObjectName(QStringLiteral("journalScriptButton"));
+    m_said->setObjectName(QStringLiteral("journalSaid"));
+    m_said->setTextFormat(Qt::PlainText);
+    m_said->setWordWrap(true);
+    m_said->hide();
+    for (QPushButton *button : {m_undo, m_redo, m_script})
         button->setAutoDefault(false);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_undo, QDialogButtonBox::ActionRole);
     buttons->addButton(m_redo, QDialogButtonBox::ActionRole);
+    buttons->addButton(m_script, QDialogButtonBox::ResetRole);
+    connect(m_script, &QPushButton::clicked, this, &JournalDialog::saveScript);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(m_undo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Undo); });
     connect(m_redo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Redo); });
     auto *layout = new QVBoxLayout(this);
-    layout->addWidget(m_view);
+    layout->setContentsMargins(24, 24, 24, 16);
+    layout->setSpacing(12);
+    layout->addWidget(m_view, 1);
+    layout->addWidget(m_said);
     layout->addWidget(buttons);
     connect(m_workbench.undo, &Undo::busyChanged, this, &JournalDialog::update);
-    resize(860, 480);
+    resize(1080, 560);
     update();
 }
 
@@ -56,7 +73,7 @@ void JournalDialog::makeView()
          {std::pair{JournalColumn::Number, "00000"}, std::pair{JournalColumn::Time, "0000-00-00 00:00:00"},
           std::pair{JournalColumn::By, "windoww"}, std::pair{JournalColumn::Device, "XM430-W350-T #252"},
           std::pair{JournalColumn::Register, "Operating Mode and 10 more"},
-          std::pair{JournalColumn::State, "undo of 00000, failed"}}) {
+          std::pair{JournalColumn::State, "undo of 0000"}}) {
         m_view->setColumnWidth(static_cast<int>(column), fontMetrics().horizontalAdvance(QLatin1String(widest)) + 16);
     }
     connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, &JournalDialog::update);
@@ -90,6 +107,26 @@ void JournalDialog::restoreSelection()
     update();
 }
 
+/// In the order of the journal; of all where none is selected.
+void JournalDialog::saveScript()
+{
+    const std::vector<qint64> numbers = selected();
+    std::vector<JournalEntry> entries;
+    for (const JournalEntry &entry : m_workbench.journal->entries()) {
+        if (numbers.empty() || std::ranges::find(numbers, entry.number) != numbers.end())
+            entries.push_back(entry);
+    }
+    askWhereToSave(this, tr("Save as a script of dxl"), QStringLiteral("sh"), QStringLiteral("journal.sh"),
+                   [this, script = scriptOf(entries)](const QString &path) {
+                       QSaveFile file(path);
+                       const bool isSaved = file.open(QIODevice::WriteOnly) && file.write(script.toUtf8()) >= 0
+                                            && file.commit();
+                       m_said->setText(isSaved ? tr("The script is in %1").arg(QDir::toNativeSeparators(path))
+                                               : tr("%1: %2").arg(QDir::toNativeSeparators(path), file.errorString()));
+                       m_said->show();
+                   });
+}
+
 /// A button says why it can't be pressed.
 void JournalDialog::update()
 {
@@ -107,6 +144,9 @@ void JournalDialog::update()
     };
     offer(*m_undo, Direction::Undo);
     offer(*m_redo, Direction::Redo);
+    m_script->setEnabled(!entries.empty());
+    m_script->setToolTip(numbers.empty() ? tr("All entries, as a shell script that writes the same with dxl")
+                                         : tr("The selected entries, as a shell script that writes the same with dxl"));
 }
 
 } // namespace dynascope

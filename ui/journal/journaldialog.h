@@ -6,6 +6,7 @@
 
 #include <QDialog>
 
+class QLabel;
 class QPushButton;
 class QTreeView;
 
@@ -27,6 +28,7 @@ signals:
 private:
     std::vector<qint64> selected() const;
     void makeView();
+    void saveScript();
     void update();
     void restoreSelection();
 
@@ -35,6 +37,8 @@ private:
     QTreeView *m_view;
     QPushButton *m_undo;
     QPushButton *m_redo;
+    QPushButton *m_script;
+    QLabel *m_said; ///< where the script is
     std::vector<qint64> m_selected; ///< over a reset of the model
     qint64 m_current = 0;
 };

@@ -13,12 +13,14 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QSettings>
+#include <QVBoxLayout>
 
 namespace dynascope {
 namespace {
 
 const QString RecentKey = QStringLiteral("profile/recent");
 constexpr qsizetype MostRecent = 8;
+constexpr int EmptyWidth = 480;
 
 } // namespace
 
@@ -55,13 +57,43 @@ ProfileFileBar::ProfileFileBar(QWidget *parent)
     layout->addWidget(m_path, 1);
     for (QPushButton *button : {m_open, m_recent, m_save})
         layout->addWidget(button);
-    connect(m_open, &QPushButton::clicked, this, [this] {
-        askWhatToOpen(this, tr("Open a robot's profile"), {QStringLiteral("yaml"), QStringLiteral("yml")},
-                      [this](const QString &path) { emit openRequested(path); });
-    });
+    connect(m_open, &QPushButton::clicked, this, &ProfileFileBar::askWhat);
     connect(m_saveNew, &QAction::triggered, this, &ProfileFileBar::askWhere);
     connect(m_saveInto, &QAction::triggered, this, &ProfileFileBar::saveIntoRequested);
     connect(m_recentMenu, &QMenu::aboutToShow, this, &ProfileFileBar::fillRecent);
+}
+
+QWidget *ProfileFileBar::makeEmptyPage(QWidget *parent)
+{
+    auto *page = new QWidget(parent);
+    auto *text = new QLabel(tr("A profile is one file for a robot: its joints by name, their model, ID and baud rate, "
+                               "and the values that their registers shall have."),
+                            page);
+    text->setAlignment(Qt::AlignCenter);
+    text->setWordWrap(true);
+    text->setFixedWidth(EmptyWidth);
+    text->setMinimumHeight(text->heightForWidth(EmptyWidth)); // which no layout asks of one in its middle
+    m_openFirst = new QPushButton(tr("Open a file…"), page);
+    m_openFirst->setObjectName(QStringLiteral("openFirstButton"));
+    m_saveFirst = new QPushButton(tr("Save what is on the bus as a new file…"), page);
+    m_saveFirst->setObjectName(QStringLiteral("saveFirstButton"));
+    for (QPushButton *button : {m_openFirst, m_saveFirst})
+        button->setAutoDefault(false);
+    auto *buttons = new QHBoxLayout;
+    buttons->setSpacing(8);
+    buttons->addStretch(1);
+    buttons->addWidget(m_openFirst);
+    buttons->addWidget(m_saveFirst);
+    buttons->addStretch(1);
+    auto *layout = new QVBoxLayout(page);
+    layout->setSpacing(16);
+    layout->addStretch(1);
+    layout->addWidget(text, 0, Qt::AlignHCenter);
+    layout->addLayout(buttons);
+    layout->addStretch(1);
+    connect(m_openFirst, &QPushButton::clicked, this, &ProfileFileBar::askWhat);
+    connect(m_saveFirst, &QPushButton::clicked, this, &ProfileFileBar::askWhere);
+    return page;
 }
 
 /// Its menu pops up: one that is executed would be an event loop of its own.
@@ -93,11 +125,22 @@ void ProfileFileBar::setUse(bool mayOpen, bool maySave, bool hasFile)
     m_recent->setEnabled(mayOpen);
     m_save->setEnabled(maySave);
     m_saveInto->setEnabled(hasFile);
+    if (!m_openFirst)
+        return;
+    m_openFirst->setEnabled(mayOpen);
+    m_saveFirst->setEnabled(maySave);
+    m_saveFirst->setToolTip(maySave ? QString() : tr("No line is open"));
 }
 
 bool ProfileFileBar::includesCalibration() const
 {
     return m_calibration->isChecked();
+}
+
+void ProfileFileBar::askWhat()
+{
+    askWhatToOpen(this, tr("Open a robot's profile"), {QStringLiteral("yaml"), QStringLiteral("yml")},
+                  [this](const QString &path) { emit openRequested(path); });
 }
 
 void ProfileFileBar::askWhere()

@@ -23,6 +23,7 @@ public:
     void setFile(const QString &robot, const QString &path); ///< both may be empty
     /// `maySave`: there is a line to save from; `hasFile`: and a file without faults to save into.
     void setUse(bool mayOpen, bool maySave, bool hasFile);
+    QWidget *makeEmptyPage(QWidget *parent); ///< to stand where no file is open: what one is for, and the ways to one
     bool includesCalibration() const; ///< what belongs to one single device
 
     static QStringList recent(); ///< paths, the last one first
@@ -36,6 +37,7 @@ signals:
 private:
     QPushButton *addButton(const char *name, const QString &text, QMenu *menu);
     void fillRecent();
+    void askWhat();
     void askWhere();
 
     QLabel *m_robot;
@@ -48,6 +50,8 @@ private:
     QAction *m_saveNew;
     QAction *m_saveInto;
     QAction *m_calibration;
+    QPushButton *m_openFirst = nullptr; ///< of the empty page, once that is made
+    QPushButton *m_saveFirst = nullptr;
 };
 
 } // namespace dynascope

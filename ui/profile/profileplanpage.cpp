@@ -19,6 +19,7 @@ namespace {
 enum Column { What, Now, Then, Where, Columns };
 constexpr int Gap = 16;       ///< behind the widest text of a column
 constexpr int RowHeight = 22; ///< as of the joints and registers
+constexpr int Widest = 280;   ///< of a column: what is wider is whole in its tool tip
 
 } // namespace
 
@@ -41,7 +42,7 @@ ProfilePlanPage::ProfilePlanPage(QWidget *parent)
     m_steps->setHeaderLabels({tr("Step"), tr("Now"), tr("Will be"), tr("Kept in")});
     m_steps->setSelectionMode(QAbstractItemView::NoSelection);
     m_steps->setUniformRowHeights(true);
-    m_steps->setTextElideMode(Qt::ElideMiddle);
+    m_steps->setTextElideMode(Qt::ElideRight);
     auto *options = new QHBoxLayout;
     options->setSpacing(24);
     options->addWidget(m_move);
@@ -111,7 +112,7 @@ void ProfilePlanPage::fill(const ProfileRun &run)
     m_steps->expandAll();
     for (const int column : {What, Now, Then}) {
         m_steps->resizeColumnToContents(column);
-        m_steps->setColumnWidth(column, m_steps->columnWidth(column) + Gap);
+        m_steps->setColumnWidth(column, std::min(m_steps->columnWidth(column) + Gap, Widest));
     }
 }
 
@@ -147,7 +148,8 @@ void ProfilePlanPage::addJoint(const JointApply &joint, const JointComparison &c
         addStep(*item, tr("Torque off"), tr("On"), tr("Off"), {});
     addWrites(*item, joint, comparison);
     if (!joint.resets.isEmpty())
-        addStep(*item, tr("Reset by it"), joint.resets.join(tr(", ")), tr("to their defaults"), {});
+        addStep(*item, joint.resets.size() == 1 ? tr("1 more is reset") : tr("%1 more are reset").arg(joint.resets.size()),
+                joint.resets.join(tr(", ")), tr("their defaults"), {});
     if (joint.needsTorqueOff && options().putTorqueBack)
         addStep(*item, tr("Goal where it is, torque on"), tr("Off"), tr("On"), {});
 }

@@ -86,13 +86,15 @@ QString comparisonText(const ProfileComparison &comparison)
     const std::size_t joints = comparison.joints.size();
     const std::size_t right = comparison.count(JointComparison::State::AsWanted);
     const std::size_t same = comparison.count(RegisterComparison::State::Same);
+    const std::size_t differing = comparison.count(RegisterComparison::State::Differs);
     QStringList sentences;
     if (right == joints)
         sentences << Texts::tr("Everything is as wanted: %1, %2.").arg(jointsText(joints), registersText(same));
     else
-        sentences << Texts::tr("%1 of %2 as wanted; %3 in registers.")
+        sentences << Texts::tr("%1 of %2 as wanted%3.")
                          .arg(right)
-                         .arg(jointsText(joints), differencesText(comparison.count(RegisterComparison::State::Differs)));
+                         .arg(jointsText(joints), differing > 0 ? Texts::tr("; %1 in registers").arg(differencesText(differing))
+                                                                : QString());
     std::size_t away = 0;
     for (const JointComparison &joint : comparison.joints)
         away += joint.isReadable() && joint.state != JointComparison::State::OldFirmware ? 0 : 1;
@@ -136,11 +138,16 @@ QString savedText(const QString &path, const SavedProfile &saved)
 {
     QStringList sentences;
     const QString name = QFileInfo(path).fileName();
+    QStringList changes;
+    if (saved.changedValues > 0)
+        changes << (saved.changedValues == 1 ? Texts::tr("1 value changed")
+                                             : Texts::tr("%1 values changed").arg(saved.changedValues));
+    if (saved.newJoints > 0)
+        changes << Texts::tr("%1 added").arg(jointsText(std::size_t(saved.newJoints)));
+    if (saved.newRegisters > 0)
+        changes << Texts::tr("%1 added").arg(registersText(std::size_t(saved.newRegisters)));
     if (saved.isChanged())
-        sentences << Texts::tr("%1 is saved: %2 values changed, %3 and %4 added.")
-                         .arg(name)
-                         .arg(saved.changedValues)
-                         .arg(registersText(std::size_t(saved.newRegisters)), jointsText(std::size_t(saved.newJoints)));
+        sentences << Texts::tr("%1 is saved: %2.").arg(name, changes.join(Texts::tr(", ")));
     else
         sentences << Texts::tr("%1 says so already.").arg(name);
     for (const QString &note : saved.notes)

@@ -45,13 +45,13 @@ ProfileView::ProfileView(const Workbench &workbench, LineSession *line, QWidget 
     , m_tree(new QTreeView(this))
     , m_faults(new ProfileFaults(this))
     , m_plan(new ProfilePlanPage(this))
-    , m_empty(new QLabel(this))
+    , m_empty(m_file->makeEmptyPage(this))
     , m_pages(new QStackedWidget(this))
     , m_lines(new QComboBox(this))
     , m_only(new QCheckBox(tr("Only &differences"), this))
     , m_note(new ProfileNote(this))
     , m_progress(new QProgressBar(this))
-    , m_compare(addButton("compareButton", tr("C&ompare")))
+    , m_compare(addButton("compareButton", tr("Co&mpare")))
     , m_apply(addButton("applyButton", tr("&Apply…")))
     , m_write(addButton("writeButton", {}))
     , m_back(addButton("backButton", tr("&Back")))
@@ -78,10 +78,6 @@ QPushButton *ProfileView::addButton(const char *name, const QString &text)
 void ProfileView::build()
 {
     makeTree();
-    m_empty->setAlignment(Qt::AlignCenter);
-    m_empty->setWordWrap(true);
-    m_empty->setText(tr("A profile is one file for a robot: its joints by name, their model, ID and baud rate, and the "
-                        "values that their registers shall have.\n\nOpen one, or save what is on the bus as a new one."));
     m_pages->insertWidget(Empty, m_empty);
     m_pages->insertWidget(Faults, m_faults);
     m_pages->insertWidget(Compared, m_tree);

@@ -85,7 +85,7 @@ private:
     QTreeView *m_tree;
     ProfileFaults *m_faults;
     ProfilePlanPage *m_plan;
-    QLabel *m_empty;
+    QWidget *m_empty;
     QStackedWidget *m_pages;
     QComboBox *m_lines;
     QCheckBox *m_only;

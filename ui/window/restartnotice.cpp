@@ -77,9 +77,12 @@ QString RestartNotice::textOf(const std::vector<Restart> &restarts) const
         names << m_workbench.session.device(restart.device)->displayName();
     if (names.size() > Named)
         names = names.first(Named) << tr("%1 more").arg(restarts.size() - Named);
-    return (allOurs ? tr("%1 devices were rebooted: %2. %3 registers set in this session are at their initial values again.")
-                    : tr("%1 devices have restarted: %2. %3 registers set in this session are back at their initial "
-                         "values."))
+    const bool wereReset = std::ranges::all_of(
+        restarts, [](const Restart &restart) { return restart.sign == RestartSign::FactoryReset; });
+    return (wereReset ? tr("%1 devices were reset: %2. %3 registers set in this session are at their initial values again.")
+            : allOurs ? tr("%1 devices were rebooted: %2. %3 registers set in this session are at their initial values again.")
+                      : tr("%1 devices have restarted: %2. %3 registers set in this session are back at their initial "
+                           "values."))
         .arg(QString::number(restarts.size()), names.join(QStringLiteral(", ")), QString::number(lost));
 }
 
@@ -88,7 +91,10 @@ void RestartNotice::say()
     const std::vector<Restart> restarts = present();
     if (restarts.empty())
         return;
-    m_said = textOf(restarts);
+    const QString text = textOf(restarts);
+    if (m_messages.text() == text) // a device that comes back, or is read again, restarted once
+        return;
+    m_said = text;
     m_messages.post({MessageKind::Warning, m_said, tr("Set again"), [this] { setAgain(); }, Topic, tr("Show"),
                      [this] { show(); }, true});
 }

@@ -66,7 +66,8 @@ JointComparison::State stateOfPlace(const ProfileJoint &joint, const JointReadin
         return State::AtOtherBaud;
     }
     if (!reading.found) {
-        why = reading.error ? reading.error->text : tr("no answer");
+        const bool isSilent = !reading.error || reading.error->kind == ErrorKind::NotSent; // missed, not asked again
+        why = isSilent ? tr("nobody answers with ID %1").arg(joint.id) : reading.error->text;
         return State::Missing;
     }
     if (reading.found->modelNumber != joint.modelNumber) {

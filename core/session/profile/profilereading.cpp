@@ -290,10 +290,16 @@ private:
     {
         for (std::size_t i = 0; i < m_plan.targets.size(); ++i) {
             const DevicePlace &place = m_plan.targets[i].place;
-            if (place.id != found.id || place.baudRate != found.baudRate)
+            JointReading &joint = m_reading.joints[i];
+            const auto isIt = [&found](const auto &at) { return at.id == found.id && at.baudRate == found.baudRate; };
+            if (joint.elsewhere && isIt(*joint.elsewhere)) {
+                joint.elsewhere->doubt = found.doubt;
+                return;
+            }
+            if (!isIt(place))
                 continue;
-            if (m_reading.joints[i].found)
-                m_reading.joints[i].found->doubt = found.doubt;
+            if (joint.found)
+                joint.found->doubt = found.doubt;
             return;
         }
         m_reading.others.push_back(found);
