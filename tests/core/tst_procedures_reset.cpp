@@ -16,7 +16,8 @@ private slots:
     // One that obeys is looked for in tst_session, where time passes while it boots.
     void oneThatIgnoredItIsFoundAtItsOldPlace()
     {
-        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5"));
+        Journal journal;
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5"), &journal);
         all.factory.isLost = [](ByteView packet) {
             return packet[7] == static_cast<std::uint8_t>(Instruction::FactoryReset);
         };
@@ -31,6 +32,10 @@ private slots:
         QCOMPARE(device.id(), 5);
         QCOMPARE(device.baudRate(), 1000000);
         QCOMPARE(device.state(), Device::State::Present);
+        const JournalEntry &entry = journal.entries().back();
+        QCOMPARE(entry.kind, JournalKind::FactoryReset);
+        QVERIFY(entry.state != JournalState::Done && !entry.movedTo);
+        QVERIFY2(entry.note.contains(QStringLiteral("did not take the reset")), qPrintable(entry.note));
     }
 
     void oneOfTwoAxesKeepsItsId()
