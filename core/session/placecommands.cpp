@@ -335,8 +335,13 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     const std::optional<int> code = device.table().baudCode(newBaud);
     if (!field || !code)
         return invalid(tr("%1 does not offer %2 bps").arg(device.model()).arg(newBaud));
-    if (const Device *other = device.line()->deviceAt(device.id(), newBaud))
-        return invalid(tr("ID %1 at %2 bps is taken by %3").arg(device.id()).arg(newBaud).arg(other->displayName()));
+    if (const IdHolder holder = holderOf(device, device.id(), newBaud); holder.device) {
+        return invalid((holder.isSecondary ? tr("ID %1 at %2 bps is the Secondary ID of %3")
+                                           : tr("ID %1 at %2 bps is taken by %3"))
+                           .arg(device.id())
+                           .arg(newBaud)
+                           .arg(holder.device->displayName()));
+    }
 
     ChangeBaudPlan plan{placeOf(device), newBaud, static_cast<std::uint8_t>(*code), field->address, turnTorqueOff};
     auto report = reporting(device, tr("%1 now works at %2 bps").arg(device.displayName()).arg(newBaud), std::move(done));
