@@ -138,15 +138,18 @@ Result<void> resetOne(const Work &work, Device &device)
     }
     note.moved({plan.after.id, plan.after.baudRate, plan.after.modelNumber, 0, false, {}});
     LineTime took{};
-    const auto found = awaitReturn(work.bus, plan.place, plan.after, took);
-    if (!found)
+    auto found = awaitReturn(work.bus, plan.place, plan.after, took);
+    if (found && !isAt(*found, plan.after)) {
+        found = failure(ErrorKind::NotConfirmed,
+                        QStringLiteral("%1 still answers at ID %2, %3 bps: it did not take the reset")
+                            .arg(device.name())
+                            .arg(found->id)
+                            .arg(found->baudRate));
+    }
+    if (!found) {
+        if (found.error().kind == ErrorKind::NotConfirmed)
+            note.failed(found.error());
         return tl::unexpected(found.error());
-    if (!isAt(*found, plan.after)) {
-        return failure(ErrorKind::NotConfirmed,
-                       QStringLiteral("%1 still answers at ID %2, %3 bps: it did not take the reset")
-                           .arg(device.name())
-                           .arg(found->id)
-                           .arg(found->baudRate));
     }
     Document document;
     document.add("id", qint64(device.id()))

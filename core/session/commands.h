@@ -92,10 +92,11 @@ private:
     void finishReturn(Device &device, const DevicePlace &from, const DevicePlace &to, const Found &found,
                       const Done &done);
     void finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
-                      const Done &report);
+                      JournalNote note, const Done &report);
     struct Resets;
     void resetNext(const std::shared_ptr<Resets> &resets);
-    void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report);
+    void lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const JournalNote &note,
+                   const Done &report);
 
     Session &m_session;
     Journal *m_journal;

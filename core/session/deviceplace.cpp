@@ -61,12 +61,12 @@ DevicePlace placeAfterReset(const Device &device, ResetOption option)
     return place;
 }
 
-IdHolder holderOf(const Device &device, int id)
+IdHolder holderOf(const Device &device, int id, std::optional<int> baudRate)
 {
     if (!device.line())
         return {};
     for (const auto &other : device.line()->devices()) {
-        if (other.get() == &device || other->baudRate() != device.baudRate())
+        if (other.get() == &device || other->baudRate() != baudRate.value_or(device.baudRate()))
             continue;
         if (other->id() == id)
             return {other.get(), false};

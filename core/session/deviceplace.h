@@ -25,7 +25,7 @@ struct IdHolder {
     const Device *device = nullptr; ///< none: the ID is free
     bool isSecondary = false;       ///< by its Secondary ID
 };
-/// Who answers to `id` at the device's baud rate, itself left out.
-IdHolder holderOf(const Device &device, int id);
+/// Who answers to `id` at a baud rate, the device's own where none is given; itself left out.
+IdHolder holderOf(const Device &device, int id, std::optional<int> baudRate = {});
 
 } // namespace dynascope

@@ -118,7 +118,7 @@ void MoveRun::start(MovePlan plan)
     if (const auto may = mayBegin(); !may)
         return set(m_state, may.error().text);
     m_plan = std::move(plan);
-    m_hasBegun = false;
+    m_hasBegun = m_isNoted = false;
     m_isCancelled = false;
     check(true);
 }
@@ -132,6 +132,7 @@ Result<void> MoveRun::takeLeft()
         return known;
     m_plan = std::move(*left);
     m_hasBegun = true;
+    m_isNoted = false;
     set(m_plan.isOver() ? State::Over : State::Halted);
     return {};
 }
@@ -176,7 +177,9 @@ void MoveRun::checked(const Result<MovePlan> &plan, bool goesOn)
         return halt(plan.error());
     if (plan->next > m_plan.next) { // the run that began it ended before it knew
         const MoveStep &step = m_plan.steps[m_plan.next];
-        note(step).moved(foundAfter(m_plan, step));
+        if (!m_isNoted)
+            note(step).moved(foundAfter(m_plan, step));
+        m_isNoted = false;
         follow(step, foundAfter(m_plan, step));
         m_plan.next = plan->next;
         m_hasBegun = true;
@@ -234,7 +237,7 @@ void MoveRun::stepEnded(JournalNote note, const Result<Found> &found)
     if (!found) {
         note.failed(found.error());
         if (stateAfter(found.error()) == JournalState::Unconfirmed)
-            return locate(found.error());
+            return locate(found.error(), note);
         return halt(found.error());
     }
     note.moved(*found);
@@ -246,7 +249,7 @@ void MoveRun::stepEnded(JournalNote note, const Result<Found> &found)
 }
 
 /// Nobody knows yet whether the device took it: STOP came, or it was at neither place.
-void MoveRun::locate(const Error &why)
+void MoveRun::locate(const Error &why, JournalNote note)
 {
     if (!m_line || m_line->state() != BusThread::State::Open)
         return halt(why);
@@ -257,11 +260,11 @@ void MoveRun::locate(const Error &why)
         [from = placeAt(device, step.from), to = placeAt(device, step.to)](JobContext &context) {
             return lookForMoved(context, from, to);
         },
-        [this, why, step](const Result<Found> &found) {
+        [this, why, step, note](const Result<Found> &found) mutable {
             const bool pressedAgain =
                 !found && (found.error().kind == ErrorKind::Stopped || found.error().kind == ErrorKind::Cancelled);
             if (pressedAgain && m_line && m_line->state() == BusThread::State::Open)
-                return locate(why);
+                return locate(why, note);
             if (!found) {
                 if (Device *lost = deviceOf(step))
                     lost->setState(Device::State::Silent);
@@ -271,8 +274,11 @@ void MoveRun::locate(const Error &why)
                 return halt(why); // which says so already
             const QString &name = m_plan.devices[step.device].place.name;
             const MovePlace place{found->baudRate, found->id};
-            if (place == step.to)
+            if (place == step.to) {
+                note.moved(*found);
+                m_isNoted = true;
                 follow(step, *found); // the next look counts the step
+            }
             const QString cause = why.kind == ErrorKind::Stopped ? tr("STOP ended the moves") : why.text;
             halt({why.kind, tr("%1; %2 is at %3").arg(cause, name, placeText(place))});
         });

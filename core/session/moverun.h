@@ -61,7 +61,7 @@ private:
     void checked(const Result<MovePlan> &plan, bool goesOn);
     void step();
     void stepEnded(JournalNote note, const Result<Found> &found);
-    void locate(const Error &why);
+    void locate(const Error &why, JournalNote note);
     void halt(const Error &why);
     void follow(const MoveStep &step, const Found &found);
     void finish();
@@ -80,6 +80,7 @@ private:
     std::set<DeviceKey> m_moved; ///< to be read anew
     bool m_isSurveyed = false, m_isCancelled = false;
     bool m_hasBegun = false; ///< something was written, or may have been
+    bool m_isNoted = false;  ///< that the step `m_plan.next` was done is in the journal, though not counted yet
     JobId m_job = 0;         ///< of State::Looking
 };
 

@@ -162,10 +162,11 @@ void Commands::moved(DeviceKey key, const Found &found)
 }
 
 void Commands::finishChange(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Result<Found> &found,
-                            const Done &report)
+                            JournalNote note, const Done &report)
 {
+    found ? note.moved(*found) : note.failed(found.error());
     if (!found && found.error().kind == ErrorKind::Stopped)
-        return lookAgain(key, from, to, report);
+        return lookAgain(key, from, to, note, report);
     if (!found)
         return report(tl::unexpected(found.error()));
     moved(key, *found);
@@ -177,16 +178,19 @@ void Commands::finishChange(DeviceKey key, const DevicePlace &from, const Device
 }
 
 /// STOP came in the middle of a change: nobody knows yet whether the device took it.
-void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const Done &report)
+void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePlace &to, const JournalNote &note,
+                         const Done &report)
 {
     Device *device = m_session.device(key);
     if (!device)
         return report(failure(ErrorKind::Stopped, tr("STOP ended the change")));
     device->line()->bus().run<Found>(
         Priority::Click, this, [from, to](JobContext &context) { return lookForMoved(context, from, to); },
-        [this, key, from, to, report](const Result<Found> &found) {
+        [this, key, from, to, note = note, report](const Result<Found> &found) mutable {
             Device *present = m_session.device(key);
             if (found) {
+                if (isAt(*found, to))
+                    note.moved(*found);
                 moved(key, *found);
                 return report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1 is at ID %2, %3 bps")
                                                               .arg(from.name)
@@ -196,7 +200,7 @@ void Commands::lookAgain(DeviceKey key, const DevicePlace &from, const DevicePla
             const ErrorKind kind = found.error().kind;
             const bool pressedAgain = kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled;
             if (pressedAgain && present && present->line()->state() == BusThread::State::Open)
-                return lookAgain(key, from, to, report);
+                return lookAgain(key, from, to, note, report);
             if (present)
                 present->setState(Device::State::Silent);
             report(failure(ErrorKind::Stopped, tr("STOP ended the change: %1").arg(found.error().text)));
@@ -236,10 +240,14 @@ void Commands::factoryReset(Device &device, ResetOption option, Done done)
                 note.failed(result.error());
                 return report(result);
             }
-            note.moved({to.id, to.baudRate, to.modelNumber, 0, false, {}});
+            note.moved({to.id, to.baudRate, to.modelNumber, 0, false, {}}); // most likely; killed now, it is looked for there
             if (Device *present = m_session.device(key))
                 present->setState(Device::State::Rebooting);
-            awaitReturn(key, from, to, ReturnAttempts, report);
+            awaitReturn(key, from, to, ReturnAttempts, [report, note](const Result<void> &back) mutable {
+                if (!back && back.error().kind == ErrorKind::NotConfirmed)
+                    note.failed(back.error());
+                report(back);
+            });
         });
 }
 
@@ -316,11 +324,10 @@ void Commands::changeId(Device &device, int newId, bool turnTorqueOff, Done done
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeId(context, plan); },
         [this, key = device.key(), from = plan.place, newId = plan.newId, report,
-         note = noteMove(device, *field, newId, turnTorqueOff)](const Result<Found> &found) mutable {
-            found ? note.moved(*found) : note.failed(found.error());
+         note = noteMove(device, *field, newId, turnTorqueOff)](const Result<Found> &found) {
             DevicePlace to = from;
             to.id = newId;
-            finishChange(key, from, to, found, report);
+            finishChange(key, from, to, found, note, report);
         });
 }
 
@@ -333,8 +340,13 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
     const std::optional<int> code = device.table().baudCode(newBaud);
     if (!field || !code)
         return invalid(tr("%1 does not offer %2 bps").arg(device.model()).arg(newBaud));
-    if (const Device *other = device.line()->deviceAt(device.id(), newBaud))
-        return invalid(tr("ID %1 at %2 bps is taken by %3").arg(device.id()).arg(newBaud).arg(other->displayName()));
+    if (const IdHolder holder = holderOf(device, device.id(), newBaud); holder.device) {
+        return invalid((holder.isSecondary ? tr("ID %1 at %2 bps is the Secondary ID of %3")
+                                           : tr("ID %1 at %2 bps is taken by %3"))
+                           .arg(device.id())
+                           .arg(newBaud)
+                           .arg(holder.device->displayName()));
+    }
 
     ChangeBaudPlan plan{placeOf(device), newBaud, static_cast<std::uint8_t>(*code), field->address, turnTorqueOff};
     auto report = reporting(device, tr("%1 now works at %2 bps").arg(device.displayName()).arg(newBaud), std::move(done));
@@ -342,11 +354,10 @@ void Commands::changeBaud(Device &device, int newBaud, bool turnTorqueOff, Done 
         Priority::Click, this,
         [plan](JobContext &context) { return dynascope::changeBaud(context, plan); },
         [this, key = device.key(), from = plan.place, newBaud, report,
-         note = noteMove(device, *field, *code, turnTorqueOff)](const Result<Found> &found) mutable {
-            found ? note.moved(*found) : note.failed(found.error());
+         note = noteMove(device, *field, *code, turnTorqueOff)](const Result<Found> &found) {
             DevicePlace to = from;
             to.baudRate = newBaud;
-            finishChange(key, from, to, found, report);
+            finishChange(key, from, to, found, note, report);
         });
 }
 

@@ -118,6 +118,21 @@ private slots:
         QCOMPARE(world.journal.entries().size(), std::size_t(2));
     }
 
+    void aBaudRateAtWhichItsIdIsASecondaryId()
+    {
+        World world(m_catalog);
+        world.all.open(57600);
+        QVERIFY(world.run(
+            [&](const auto &done) { world.all.commands.changeBaud(world.device(1), 1'000'000, false, done); }));
+        world.device(2).takeReadBack(world.device(2).table().indexOf(Known::SecondaryId), 1);
+        const auto back = world.run([&](const auto &done) {
+            world.all.commands.changeBaud(world.device(1, 1'000'000), 57600, false, done);
+        });
+        QVERIFY(!back);
+        QVERIFY2(back.error().text.contains(u"Secondary ID of XL430-W250"_s), qPrintable(back.error().text));
+        QCOMPARE(world.journal.entries().size(), std::size_t(1));
+    }
+
     void whatIsNoWrite()
     {
         World world(m_catalog);

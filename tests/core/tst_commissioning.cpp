@@ -205,19 +205,39 @@ private slots:
     {
         CommissionWorld world(m_catalog, u"XM430-W350@57600:1"_s);
         world.want(u"XM430-W350"_s, 11, 1, 1'000'000);
-        MovePlan plan;
-        MoveDevice device;
-        device.place.id = 3;
-        device.place.modelNumber = 1060;
-        device.place.name = u"XL430-W250 #3"_s;
-        device.goal = {57600, 4};
-        plan.devices = {device};
-        plan.steps = {{0, {57600, 3}, {57600, 4}, false}};
-        QVERIFY(world.plan().file.save(plan));
+        QVERIFY(world.plan().file.save(othersMove()));
         const auto round = world.round();
         QVERIFY(!round);
         QVERIFY2(round.error().text.contains(u"XL430-W250 #3 is at ID 3"), qPrintable(round.error().text));
         QVERIFY(world.plan().file.exists());
+    }
+
+    /// By another program, or another part of this one: their plan is neither replaced nor thrown away.
+    void movesThatBeginMeanwhile_data()
+    {
+        QTest::addColumn<QString>("servo");
+        QTest::addColumn<QString>("says");
+        QTest::newRow("one that would have to move") << u"XM430-W350@57600:1"_s << u"XL430-W250 #3 is at ID 3"_s;
+        QTest::newRow("one that stands as wanted") << u"XM430-W350@1000000:11"_s << QString();
+    }
+    void movesThatBeginMeanwhile()
+    {
+        QFETCH(QString, servo);
+        QFETCH(QString, says);
+        CommissionWorld world(m_catalog, servo);
+        world.want(u"XM430-W350"_s, 11, 1, 1'000'000);
+        QVERIFY(world.round());
+        QVERIFY(world.plan().file.save(othersMove()));
+        world.plug(0);
+        const QString problem = world.problem(world.round());
+        QVERIFY2(says.isEmpty() ? problem.isEmpty() : problem.contains(says), qPrintable(problem));
+        QCOMPARE(world.list.next().has_value(), !says.isEmpty());
+        QCOMPARE(world.writes(), 0);
+        const auto left = world.plan().file.load();
+        QVERIFY(left && left->devices.front().place.id == 3);
+        world.plan().file.remove();
+        QCOMPARE(world.problem(world.round()), QString());
+        QVERIFY(!world.list.next());
     }
 
     void theJournalKnowsEachWrite()
@@ -290,6 +310,20 @@ private slots:
     }
 
 private:
+    /// Of a servo that is no concern of the list.
+    static MovePlan othersMove()
+    {
+        MovePlan plan;
+        MoveDevice device;
+        device.place.id = 3;
+        device.place.modelNumber = 1060;
+        device.place.name = u"XL430-W250 #3"_s;
+        device.goal = {57600, 4};
+        plan.devices = {device};
+        plan.steps = {{0, {57600, 3}, {57600, 4}, false}};
+        return plan;
+    }
+
     const Catalog m_catalog = test::builtInCatalog();
 };
 

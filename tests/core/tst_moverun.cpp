@@ -135,7 +135,7 @@ private slots:
         QTest::newRow("an ID that is taken") << two << std::vector<MovePlace>{{Slow, 2}} << u"would both have ID 2"_s;
         QTest::newRow("a rate that a model lacks")
             << u"XL430-W250@57600:1"_s << std::vector<MovePlace>{{10'500'000, 1}} << u"10500000 bps"_s;
-        QTest::newRow("a model that nobody knows")
+        QTest::newRow("an ID that nobody can have")
             << u"XM430-W350@57600:1"_s << std::vector<MovePlace>{{Slow, 300}} << u"an ID is 0 to 252"_s;
     }
     void refusedBeforeTheFirstWrite()
@@ -214,6 +214,36 @@ private slots:
         QVERIFY(program.rest());
         QVERIFY2(program.run->state() == MoveRun::State::Over, qPrintable(program.run->problem()));
         QCOMPARE(program.session.device(one)->id(), 11);
+        QCOMPARE(program.session.device(two)->id(), 12);
+    }
+
+    /// The device has it and nobody heard so: what STOP ended is in the journal where it was found, and once only.
+    void stopWithTheWriteInFlight()
+    {
+        VirtualFactory factory(m_catalog, u"XM430-W350@57600:1,XL430-W250@57600:2"_s);
+        const QTemporaryDir folder;
+        Program program(factory, m_catalog, folder.path());
+        QVERIFY(program.survey());
+        const DeviceKey one = program.at(1).key(), two = program.at(2).key();
+        const auto plan = program.plan({{one, {Slow, 11}}, {two, {Slow, 12}}});
+        std::atomic<bool> pressed = false;
+        factory.onPacket = [&](int, ByteView packet) {
+            if (isWrite(packet) && !pressed.exchange(true))
+                QMetaObject::invokeMethod(
+                    &program.stop, [&] { program.stop.press(); }, Qt::BlockingQueuedConnection);
+        };
+        program.run->start(*plan);
+        QVERIFY(program.rest());
+        QCOMPARE(program.run->state(), MoveRun::State::Halted);
+        QCOMPARE(program.session.device(one)->id(), 11);
+        QCOMPARE(program.journal.entries().front().movedTo, (JournalPlace{11, Slow}));
+        program.stop.release();
+        QVERIFY(VirtualSession::waitFor([&] { return !program.line->bus().isStopped(); }));
+        program.run->goOn(false);
+        QVERIFY(program.rest());
+        QVERIFY2(program.run->state() == MoveRun::State::Over, qPrintable(program.run->problem()));
+        const auto &entries = program.journal.entries();
+        QCOMPARE(std::ranges::count_if(entries, [](const JournalEntry &entry) { return entry.movedTo.has_value(); }), 2);
         QCOMPARE(program.session.device(two)->id(), 12);
     }
 

@@ -16,7 +16,8 @@ private slots:
     // One that obeys is looked for in tst_session, where time passes while it boots.
     void oneThatIgnoredItIsFoundAtItsOldPlace()
     {
-        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5"));
+        Journal journal;
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5"), &journal);
         all.factory.isLost = [](ByteView packet) {
             return packet[7] == static_cast<std::uint8_t>(Instruction::FactoryReset);
         };
@@ -31,6 +32,47 @@ private slots:
         QCOMPARE(device.id(), 5);
         QCOMPARE(device.baudRate(), 1000000);
         QCOMPARE(device.state(), Device::State::Present);
+        const JournalEntry &entry = journal.entries().back();
+        QCOMPARE(entry.kind, JournalKind::FactoryReset);
+        QVERIFY(entry.state != JournalState::Done && !entry.movedTo);
+        QVERIFY2(entry.note.contains(QStringLiteral("did not take the reset")), qPrintable(entry.note));
+    }
+
+    /// One obeys, one hears nothing of it, one is never heard again: each has its own end, and none keeps the next back.
+    void severalWithDifferentEnds()
+    {
+        Journal journal;
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@1000000:5,XM430-W350@1000000:6,XM430-W350@1000000:7"),
+                           &journal);
+        sim::Servo *third = all.factory.simulated.servo(7, 1'000'000);
+        all.factory.isLost = [third](ByteView packet) {
+            const bool isReset = packet[7] == static_cast<std::uint8_t>(Instruction::FactoryReset);
+            if (isReset && packet[4] == 7)
+                third->setPlugged(false);
+            return isReset && packet[4] != 5;
+        };
+        all.open(1'000'000);
+        std::vector<Device *> devices;
+        for (const auto &device : all.line->devices())
+            devices.push_back(device.get());
+        connect(all.line, &LineSession::deviceChanged, this, [&](Device *device) { // it boots for less than that
+            if (device->state() == Device::State::Rebooting)
+                all.factory.passing = LineTime(std::chrono::seconds(1)).count();
+        });
+        std::optional<Result<void>> outcome;
+        all.commands.factoryReset(devices, ResetOption::AllButId, [&](const auto &result) { outcome = result; });
+        QVERIFY(VirtualSession::waitFor([&] { return outcome.has_value(); }));
+        QVERIFY(!*outcome); // the first failure
+        QVERIFY2(outcome->error().text.contains(QStringLiteral("#6 still answers at ID 6, 1000000 bps")),
+                 qPrintable(outcome->error().text));
+        QCOMPARE(devices[0]->baudRate(), 57600);
+        QCOMPARE(devices[1]->baudRate(), 1'000'000);
+        QCOMPARE(devices[1]->state(), Device::State::Present);
+        QCOMPARE(devices[2]->state(), Device::State::Silent);
+        QCOMPARE(journal.entries().size(), std::size_t(3));
+        QCOMPARE(journal.entries()[0].movedTo, (JournalPlace{5, 57600}));
+        for (const std::size_t at : {1U, 2U})
+            QVERIFY(journal.entries()[at].state == JournalState::Unconfirmed && !journal.entries()[at].movedTo);
     }
 
     void oneOfTwoAxesKeepsItsId()

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/journal/undoplan.h"
 #include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
 #include "tests/support/testmain.h"
@@ -84,7 +85,8 @@ private:
 
     void stopAt(int at, int again, bool isBaud, Outcome &outcome)
     {
-        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1,XM430-W350@57600:2"));
+        Journal journal;
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1,XM430-W350@57600:2"), &journal);
         for (const auto &servo : all.factory.simulated.servos())
             servo->write(u"Torque Enable", 1);
         std::atomic<bool> pressed = false;
@@ -131,6 +133,7 @@ private:
             QVERIFY(!*torqueOn);
         }
         QVERIFY(!turnedOn);
+        QCOMPARE(placeNow(journal.entries(), journal.entries().front()), (JournalPlace{id, baud})); // undo follows it
         for (const auto &each : all.factory.simulated.servos())
             QCOMPARE(int(each->value(u"Torque Enable")), 0);
     }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/journal/undo.h"
 #include "core/session/profilerun.h"
 #include "core/session/profilesaver.h"
 #include "tests/support/builtincatalog.h"
 #include "tests/support/profilefiles.h"
+#include "tests/support/servoimage.h"
 #include "tests/support/testmain.h"
 
 #include <atomic>
@@ -112,6 +114,31 @@ private slots:
         QVERIFY(program.run.planFor({}, true)->isNothing());
         QVERIFY(program.apply());
         QCOMPARE(m_writes, 4);
+    }
+
+    /// Modes with what they reset among it: every writable register is what it was.
+    void whatItWroteIsUndone()
+    {
+        m_factory = std::make_unique<VirtualFactory>(m_catalog, servosOf(8));
+        m_path = writeFile(m_folder->path(), u"eight.yaml"_s, profileOf(8));
+        setUpServos(m_factory->simulated, *loadProfile(m_path, m_catalog), twelveDeviations());
+        const ServoImage before = imageOf(m_factory->simulated);
+        {
+            Program program(*m_factory, m_catalog, m_folder->path());
+            QVERIFY(program.compare(m_path));
+            QVERIFY(program.apply());
+            QVERIFY(program.run.comparison()->isAsWanted());
+            std::vector<qint64> numbers;
+            for (const JournalEntry &entry : program.journal.entries())
+                numbers.push_back(entry.number);
+            QVERIFY(numbers.size() >= 12);
+            Undo undo(program.session, program.commands);
+            std::optional<Result<void>> undone;
+            undo.run(numbers, Direction::Undo, {}, [&](const Result<void> &result) { undone = result; });
+            QVERIFY(VirtualSession::waitFor([&] { return undone.has_value(); }));
+            QVERIFY2(*undone, *undone ? "" : qPrintable(undone->error().text));
+        }
+        QCOMPARE(test::differences(before, imageOf(m_factory->simulated)), QStringList());
     }
 
     void onlyTheJointsThatAreChosen()

@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/builtincatalog.h"
+#include "tests/support/servoimage.h"
 #include "tests/support/testmain.h"
 #include "tests/support/undoworld.h"
 
 #include <random>
 
 using namespace dynascope;
-using test::UndoRate, test::UndoWorld;
+using test::imageOf, test::differences, test::UndoRate, test::UndoWorld;
+using Image = test::ServoImage;
 using namespace Qt::StringLiterals;
 
 namespace {
-
-using Image = std::map<std::pair<int, QString>, std::int64_t>; ///< by servo and register
-
-Image imageOf(const sim::SimulatedBus &bus)
-{
-    Image image;
-    int number = 0;
-    for (const auto &servo : bus.servos()) {
-        ++number;
-        for (const Field &field : servo->table().fields()) {
-            if (field.isWritable())
-                image[{number, field.name}] = servo->value(field);
-        }
-    }
-    return image;
-}
-
-QStringList differences(const Image &one, const Image &other)
-{
-    QStringList all;
-    for (const auto &[where, raw] : one) {
-        const std::int64_t now = other.at(where);
-        if (now != raw)
-            all << u"servo %1, %2: %3, was %4"_s.arg(where.first).arg(where.second).arg(now).arg(raw);
-    }
-    return all;
-}
 
 /// Nobody could be asked any more at these, or not in the same way; where a device stands is another test's.
 bool isManner(const Field &field)
@@ -268,6 +243,49 @@ private slots:
             world.all.open(UndoRate);
             const QString again = world.revert({number});
             QVERIFY2(again.isEmpty(), qPrintable(u"after packet %1: %2"_s.arg(at).arg(again)));
+            QCOMPARE(world.value(1, u"Position P Gain"), 111);
+            QCOMPARE(world.value(1, u"Operating Mode"), 3);
+        }
+        QFAIL("it never came to its end");
+    }
+
+    /// The servo loses its power at each write of the undo: old or new, and the same again ends well.
+    void powerCutAnywhere_data()
+    {
+        QTest::addColumn<bool>("behind");
+        QTest::newRow("before the write") << false;
+        QTest::newRow("behind it") << true;
+    }
+    void powerCutAnywhere()
+    {
+        QFETCH(bool, behind);
+        for (int at = 1; at < 50; ++at) {
+            UndoWorld world(m_catalog, u"XM430-W350@57600:1"_s);
+            world.open();
+            QVERIFY(world.write(1, u"Position P Gain", 111));
+            QVERIFY(world.write(1, u"Operating Mode", 1));
+            const qint64 number = world.last();
+            sim::Servo *servo = world.all.factory.simulated.servo(1, UndoRate);
+            std::atomic<bool> wasCut = false;
+            world.all.factory.onPacket = [&, writes = 0](int, ByteView packet) mutable {
+                const int sent = writes;
+                writes += packet[7] == static_cast<std::uint8_t>(Instruction::Write) ? 1 : 0;
+                if ((behind ? sent : writes) == at && !wasCut.exchange(true))
+                    servo->powerCycle();
+            };
+            QString failed = world.revert({number});
+            if (!wasCut) {
+                QVERIFY(at > 2); // the mode, and what it reset
+                return;
+            }
+            const std::int64_t gain = world.value(1, u"Position P Gain"), mode = world.value(1, u"Operating Mode");
+            QVERIFY2(gain == 111 || gain == 800, qPrintable(QString::number(gain)));
+            QVERIFY2(mode == 1 || mode == 3, qPrintable(QString::number(mode)));
+            for (int tries = 0; tries < 3 && !failed.isEmpty(); ++tries) {
+                world.all.factory.passing = LineTime(std::chrono::seconds(1)).count(); // it boots
+                failed = world.revert({number});
+            }
+            QVERIFY2(failed.isEmpty(), qPrintable(u"at write %1: %2"_s.arg(at).arg(failed)));
             QCOMPARE(world.value(1, u"Position P Gain"), 111);
             QCOMPARE(world.value(1, u"Operating Mode"), 3);
         }

@@ -137,6 +137,10 @@ private:
         m_moves = std::move(*plan);
         m_moves.line = m_what.plan.line;
         m_moves.adapter = m_what.plan.adapter;
+        if (!m_moves.isOver()) { // what others began meanwhile keeps its file
+            if (const auto left = leftHalfDone(m_what.plan); !left)
+                return tl::unexpected(left.error());
+        }
         return checkMoves(m_context, m_moves);
     }
 

@@ -269,12 +269,18 @@ private:
     {
         m_round.list.tick(joint, facts);
         m_round.ticked.push_back(joint);
-        const auto &half = memory().halfDone;
-        if (half && half->goal != facts.place && facts.wasSo)
-            return; // another one's
-        m_plan.file.remove();
-        if (half && half->goal == facts.place)
+        if (const auto left = m_plan.file.load(); left && isOnlyOf(*left, facts)) // else another one's
+            m_plan.file.remove();
+        if (const auto &half = memory().halfDone; half && half->goal == facts.place)
             memory().halfDone.reset();
+    }
+
+    static bool isOnlyOf(const MovePlan &plan, const CommissionFacts &facts)
+    {
+        return std::ranges::all_of(plan.steps, [&](const MoveStep &step) {
+            const MoveDevice &device = plan.devices[step.device];
+            return device.goal == facts.place && device.place.modelNumber == facts.modelNumber;
+        });
     }
 
     /// Was it there before anything was plugged in? Then it isn't new, whatever it is.

@@ -56,12 +56,22 @@ public:
         if (const auto go = m_context.checkpoint(); !go)
             return tl::unexpected(go.error());
         const JobContext::Exclusive exclusive(m_context);
+        allowLongestDelay();
         if (const auto written = writeAll(); !written)
             return tl::unexpected(written.error());
         return std::move(m_result);
     }
 
 private:
+    /// Return Delay Time may be among what is put back: the read-back must not be given up for what it was before.
+    void allowLongestDelay()
+    {
+        Traits traits = m_bus.traits(m_plan.place.id);
+        traits.returnDelay = Traits{}.returnDelay;
+        traits.returnDelayKnown = false;
+        m_bus.addTraits(traits);
+    }
+
     Result<void> checkDevice()
     {
         const auto found = look(m_context, m_plan.place);
