@@ -38,6 +38,15 @@ double LineHealth::bytesPerSecond() const
     return rate(m_latest.sum().bytes, m_previous.sum().bytes);
 }
 
+double LineHealth::answersPerSecond(std::chrono::milliseconds interval) const
+{
+    const auto count = [interval](const LineQuality &quality) {
+        const auto at = std::ranges::find(quality.polled.taken, interval, &PollReport::Taken::interval);
+        return at == quality.polled.taken.end() ? quint64(0) : at->answers;
+    };
+    return rate(count(m_latest), count(m_previous));
+}
+
 void LineHealth::startAnew()
 {
     m_origin = m_latest;

@@ -22,6 +22,9 @@ public:
     /// Of good answers, between the last two reports.
     double bytesPerSecond(std::uint8_t id) const;
     double bytesPerSecond() const; ///< of all devices
+    const LineDelays &delays() const { return m_latest.polled.delays; } ///< what adapter and host add, as measured
+    /// Answers a second to what is read at this interval, between the last two reports.
+    double answersPerSecond(std::chrono::milliseconds interval) const;
 
     /// A person wants to see what it is like from now on.
     void startAnew();
