@@ -81,7 +81,8 @@ std::vector<RateLimit> limitsOf(const PolledLine &line)
     };
     const PollPrediction fast = line.couldBeFast.empty() ? now : predict(withFastReads(line));
     add(What::Baud, now.shares.bytes(), {});
-    add(What::ReturnDelay, now.shares.returnDelay, slowToReturn(line.plan));
+    if (std::vector<std::uint8_t> slow = slowToReturn(line.plan); !slow.empty())
+        add(What::ReturnDelay, now.shares.returnDelay, std::move(slow));
     add(What::LatencyTimer, now.shares.latency, {});
     add(What::SilentDevice, now.shares.silence, line.silent);
     add(What::Devices, now.shares.thinking, {});
