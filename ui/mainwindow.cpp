@@ -19,6 +19,7 @@
 #include "ui/devices/leftmoves.h"
 #include "ui/devices/nicknames.h"
 #include "ui/health/healthpanel.h"
+#include "ui/health/rateremedies.h"
 #include "ui/journal/undoactions.h"
 #include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
@@ -103,6 +104,9 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
             m_table->showSetHere();
         });
     }
+    auto *rates = new RateRemedies(workbench, this);
+    connect(m_status, &StatusView::ratesRequested, rates, &RateRemedies::show);
+    connect(rates, &RateRemedies::posted, m_messages, [this](MessageKind kind, const QString &text) { m_messages->post(kind, text); });
     connectConnection();
     connectDevices();
     connectPlots();

@@ -271,6 +271,7 @@ void BusWorker::tellQuality(bool now)
     m_qualityToldAt = present;
     LineQuality quality = m_bus->quality();
     quality.at = m_line->now();
+    quality.polled = m_poller->report();
     m_outbox.setQuality(std::move(quality));
 }
 

@@ -7,6 +7,7 @@
 #include <QString>
 
 #include <chrono>
+#include <optional>
 
 namespace dynascope {
 
@@ -46,6 +47,11 @@ public:
 
     /// How late an answer may come through on account of the host: adapter latency, scheduling.
     virtual LineTime hostAllowance() const = 0;
+
+    /// So long the adapter holds back what came, where the system tells.
+    virtual std::optional<LineTime> latencyTimer() const { return std::nullopt; }
+    /// A person wants bytes as they come. Fails with PortUnsuitable, saying how else it can be had.
+    virtual Result<void> lowerLatency();
 
     /// 10 bit times: 8 data bits, start, stop.
     LineTime byteTime() const { return LineTime(10'000'000'000LL / baudRate()); }

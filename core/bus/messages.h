@@ -74,5 +74,10 @@ Error deviceRateBound(const QString &port); ///< a device may not be moved away 
 /// @}
 
 QString durationText(LineTime duration); ///< "0.8 ms", "16 ms", "1.2 s"
+/// @name Line::lowerLatency()
+/// @{
+Error noLatencyTimer(const QString &line);
+Error latencyRefused(const QString &line, const QString &path, std::chrono::nanoseconds timer);
+/// @}
 
 } // namespace dynascope::messages

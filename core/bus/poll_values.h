@@ -44,12 +44,4 @@ struct Batch {
     std::vector<PollValue> values;
 };
 
-/// The requests of one cycle for these spans, cheapest first choice: fast sync, sync, bulk, single. Pure.
-/// `indices[i]` are the spans, by position in the argument, that request i answers, in reply order.
-struct PlannedExchange {
-    Request request;
-    std::vector<std::size_t> indices;
-};
-std::vector<PlannedExchange> planExchanges(std::span<const PollSpan> spans, std::span<const Traits> traits);
-
 } // namespace dynascope

@@ -3,6 +3,7 @@
 
 #include "core/bus/asking.h"
 #include "core/bus/messages.h"
+#include "core/bus/pollprediction.h"
 
 #include <algorithm>
 
@@ -12,12 +13,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int SilentCycles = 3;      ///< as often missed, a device is asked rarely
-constexpr int Failures = 2;          ///< as often, and it doesn't know this kind of read
 constexpr int Passes = 4;            ///< of one cycle, while a broken chain hides devices
-constexpr std::size_t Cycles = 16;   ///< kept ready: spans of a few intervals make as many kinds of cycles
 constexpr LineTime FirstBackOff = 100ms;
-constexpr LineTime LongestBackOff = 3s;
 constexpr LineTime Remembered = 1min; ///< that a device doesn't know a kind of read: it may have been the line
 
 bool isSilence(const Error &error)
@@ -32,38 +29,6 @@ bool isGroup(const Request &request)
 }
 
 } // namespace
-
-void Poller::setPlan(PollPlan plan)
-{
-    const LineTime now = m_bus.line().now();
-    std::vector<LineTime> due;
-    for (const PollSpan &span : plan.spans) { // what stays keeps its rhythm
-        const auto old = std::ranges::find(m_plan.spans, span);
-        due.push_back(old == m_plan.spans.end() ? now : m_due[static_cast<std::size_t>(old - m_plan.spans.begin())]);
-    }
-    for (std::size_t id = 0; id < m_devices.size(); ++id) {
-        const auto before = std::ranges::find(m_plan.traits, id, &Traits::id);
-        const auto after = std::ranges::find(plan.traits, id, &Traits::id);
-        if (before == m_plan.traits.end() || after == plan.traits.end() || *before != *after)
-            m_devices[id] = {};
-    }
-    m_plan = std::move(plan);
-    for (const Traits &device : m_plan.traits) {
-        DeviceState &state = m_devices[device.id];
-        if (!isMute(device.id) || state.silent > 0)
-            continue;
-        state.silent = SilentCycles;
-        state.answersPing = true; // it was found
-        state.backOff = LongestBackOff;
-        state.probeAt = now;
-    }
-    m_due = std::move(due);
-    m_place.assign(m_plan.spans.size(), 0);
-    m_prepared.clear();
-    std::vector<Traits> known = m_plan.traits;
-    known.insert(known.end(), m_plan.others.begin(), m_plan.others.end());
-    m_bus.setTraits(known);
-}
 
 /// Told to answer no Read, and keeping to it. Somebody else may set its Status Return Level back: then it isn't.
 bool Poller::isMute(std::uint8_t id) const
@@ -89,7 +54,7 @@ LineTime Poller::nextDue() const
     LineTime next = LineTime::max();
     for (std::size_t i = 0; i < m_plan.spans.size(); ++i) {
         const std::uint8_t id = m_plan.spans[i].span.id;
-        const LineTime due = isSleeping(id) ? std::max(m_due[i], m_devices[id].probeAt) : m_due[i];
+        const LineTime due = isSleeping(id) ? std::max(m_schedule.due(i), m_devices[id].probeAt) : m_schedule.due(i);
         next = std::min(next, due);
     }
     return next;
@@ -120,8 +85,10 @@ Result<void> Poller::runCycle(Batch &batch)
         if (Result<void> read = readPass(batch, pass); !read)
             return read;
     }
-    schedule();
+    for (const std::size_t span : m_dueNow)
+        m_schedule.taken(span, m_bus.line().now());
     batch.end = m_bus.line().now();
+    measure(batch);
     return {};
 }
 
@@ -133,9 +100,13 @@ Result<void> Poller::collectDue(Batch &batch)
     int probed = -1;
     m_dueNow.clear();
     m_open.clear();
+    m_schedule.choose(now, [&](std::size_t i) {
+        const std::uint8_t id = m_plan.spans[i].span.id;
+        return !isSleeping(id) || m_devices[id].probeAt <= now;
+    });
     for (std::size_t i = 0; i < m_plan.spans.size(); ++i) {
         const std::uint8_t id = m_plan.spans[i].span.id;
-        if (m_due[i] > now)
+        if (m_schedule.due(i) > now || !m_schedule.isChosen(i))
             continue;
         if (isSleeping(id) && probed != id) { // one a cycle: the others shall not wait for many
             if (m_devices[id].probeAt > now || probed >= 0)
@@ -176,9 +147,13 @@ Result<void> Poller::collectDue(Batch &batch)
 Result<void> Poller::probe(std::uint8_t id)
 {
     const Asking asking(m_bus);
+    const LineTime begin = m_bus.line().now();
     const Result<ExchangeResult> ping = m_bus.exchange(pingRequest(id), 0);
     if (!ping)
         return tl::unexpected(ping.error());
+    const LineTime took = m_bus.line().now() - begin;
+    m_exchanging += took;
+    m_measure.addProbe(took);
     DeviceState &state = m_devices[id];
     state.answersPing = ping->replies.front().has_value();
     if (state.answersPing) {
@@ -188,54 +163,6 @@ Result<void> Poller::probe(std::uint8_t id)
         missed(id);
     }
     return {};
-}
-
-std::vector<Traits> Poller::currentTraits() const
-{
-    std::vector<Traits> traits = m_plan.traits;
-    for (Traits &device : traits) {
-        const DeviceState &state = m_devices[device.id];
-        const bool single = m_looked.test(device.id);
-        device.fastReads =
-            device.fastReads && state.fastFailures < Failures && !m_fastMissed.test(device.id) && !single;
-        device.groupReads =
-            device.groupReads && state.groupFailures < Failures && !m_groupMissed.test(device.id) && !single;
-        if (state.answersRead)
-            device.statusReturnLevel = std::max<std::uint8_t>(device.statusReturnLevel, 1);
-    }
-    return traits;
-}
-
-std::vector<Poller::Step> Poller::planSteps(const Indices &open) const
-{
-    std::vector<PollSpan> spans;
-    for (const std::size_t index : open)
-        spans.push_back(m_plan.spans[index]);
-    std::vector<Step> steps;
-    for (PlannedExchange &planned : planExchanges(spans, currentTraits())) {
-        Step step{std::move(planned.request), {}, {}};
-        step.packet = encode(step.request.packet);
-        for (const std::size_t index : planned.indices)
-            step.spans.push_back(open[index]);
-        steps.push_back(std::move(step));
-    }
-    return steps;
-}
-
-/// Cycles repeat: what they send is made once.
-const std::vector<Poller::Step> &Poller::stepsFor(const Indices &open)
-{
-    if (m_fastMissed.any() || m_groupMissed.any() || m_looked.any()) {
-        m_unusual = planSteps(open);
-        return m_unusual;
-    }
-    const auto known = std::ranges::find(m_prepared, open, &Prepared::open);
-    if (known != m_prepared.end())
-        return known->steps;
-    if (m_prepared.size() >= Cycles)
-        m_prepared.erase(m_prepared.begin());
-    m_prepared.push_back({open, planSteps(open)});
-    return m_prepared.back().steps;
 }
 
 Result<void> Poller::readPass(Batch &batch, int pass)
@@ -258,31 +185,58 @@ Result<void> Poller::readPass(Batch &batch, int pass)
 Result<void> Poller::runStep(Batch &batch, const Step &step, int pass)
 {
     const std::uint8_t first = m_plan.spans[step.spans.front()].span.id;
-    const bool isLook = step.spans.size() == 1 && m_looked.test(first);
+    const bool isLook = step.request.replies.size() == 1 && m_looked.test(first);
     const Asking asking(m_bus, isLook);
+    const LineTime begin = m_bus.line().now();
     if (Result<void> done = m_bus.exchangeInto(step.request, step.packet, m_result); !done)
         return done;
-    for (std::size_t place = 0; place < step.spans.size(); ++place) {
-        const std::size_t span = step.spans[place];
-        Result<Reply> &reply = m_result.replies[place];
-        PollValue &value = batch.values[m_place[span]];
-        if (!reply) {
-            value.error = reply.error();
-            value.at = m_bus.line().now();
-            takeFailure(step, place, pass);
-            if (isLook && isSilence(value.error))
-                value.error = silenceOf(m_plan.spans[span].span.id);
+    const LineTime took = m_bus.line().now() - begin;
+    m_exchanging += took;
+    if (std::ranges::all_of(m_result.replies, &Result<Reply>::has_value) && !isLook)
+        m_measure.addExchange(took, step.cost);
+    Fate fate = Fate::Given;
+    for (std::size_t at = 0; at < step.spans.size(); ++at) {
+        const std::size_t span = step.spans[at], place = step.replies[at];
+        const bool isFirst = at == 0 || step.replies[at - 1] != place;
+        const std::uint8_t id = m_plan.spans[span].span.id;
+        if (m_result.replies[place]) {
+            takeReply(batch, step, at);
+            if (isFirst)
+                answered(id, step);
+            if (isLook)
+                askRest(id, span);
             continue;
         }
-        value.data.swap(reply->data);
-        value.error = {};
-        value.alert = reply->alert;
-        value.at = reply->at;
-        answered(m_plan.spans[span].span.id, step);
-        if (isLook)
-            askRest(m_plan.spans[span].span.id, span);
+        PollValue &value = batch.values[m_place[span]];
+        value.error = m_result.replies[place].error();
+        value.at = m_bus.line().now();
+        if (isFirst)
+            fate = takeFailure(step, place, pass);
+        if (fate != Fate::Given)
+            (fate == Fate::Again ? m_again : m_last).push_back(span);
+        if (isLook && isSilence(value.error))
+            value.error = silenceOf(id);
     }
     return {};
+}
+
+/// One span's part of a reply.
+void Poller::takeReply(Batch &batch, const Step &step, std::size_t at)
+{
+    const std::size_t place = step.replies[at];
+    const Span &span = m_plan.spans[step.spans[at]].span;
+    PollValue &value = batch.values[m_place[step.spans[at]]];
+    Reply &reply = *m_result.replies[place];
+    if (reply.data.size() == span.length) {
+        value.data.assign(reply.data.begin(), reply.data.end());
+    } else {
+        const int from = span.address - step.begins[place];
+        value.data.assign(reply.data.begin() + from, reply.data.begin() + from + span.length);
+    }
+    ++m_taken[m_takenOf[step.spans[at]]].answers;
+    value.error = {};
+    value.alert = reply.alert;
+    value.at = reply.at;
 }
 
 /// It is back: whatever else of it is due is read, too.
@@ -297,21 +251,22 @@ void Poller::askRest(std::uint8_t id, std::size_t looked)
 
 /// Hidden by another one's silence: again. Silent itself: again with a plainer read, if it may be that it doesn't know
 /// this one. Else it is missing.
-void Poller::takeFailure(const Step &step, std::size_t place, int pass)
+Poller::Fate Poller::takeFailure(const Step &step, std::size_t place, int pass)
 {
-    const std::size_t span = step.spans[place];
-    const std::uint8_t id = m_plan.spans[span].span.id;
+    const std::uint8_t id = step.request.replies[place].id;
     const bool lastPass = pass == Passes;
-    if (m_result.isHidden(place)) {
-        if (!lastPass)
-            m_again.push_back(span);
-        return;
-    }
+    if (m_result.isHidden(place))
+        return lastPass ? Fate::Given : Fate::Again;
     const ErrorKind kind = m_result.replies[place].error().kind;
+    if (kind == ErrorKind::Refused && isRefusedJoin(step, place)) {
+        m_costs.unjoined.set(id);
+        ++m_learned;
+        return lastPass ? Fate::Given : Fate::Again;
+    }
     if (!isSilence(m_result.replies[place].error())) {
         if (static_cast<int>(place) == m_result.brokenAt) // heard so badly that the others didn't: last next time
             m_devices[id].broken = 1;
-        return;
+        return Fate::Given;
     }
     const bool fast = step.request.shape == ReplyShape::Fast;
     const DeviceState &state = m_devices[id];
@@ -319,10 +274,16 @@ void Poller::takeFailure(const Step &step, std::size_t place, int pass)
     const bool proven = fast ? state.fastProven : state.groupProven;
     if (isGroup(step.request) && kind != ErrorKind::NotSent && !proven && !lastPass && !missedNow.test(id)) {
         missedNow.set(id);
-        m_last.push_back(span);
-    } else {
-        missed(id);
+        return Fate::Last;
     }
+    missed(id);
+    return Fate::Given;
+}
+
+/// More was read than a span: perhaps there is something between them that can't be.
+bool Poller::isRefusedJoin(const Step &step, std::size_t place) const
+{
+    return std::ranges::count(step.replies, place) > 1 && !m_costs.unjoined.test(step.request.replies[place].id);
 }
 
 void Poller::answered(std::uint8_t id, const Step &step)
@@ -363,19 +324,8 @@ void Poller::missed(std::uint8_t id)
     ++state.silent;
     if (state.silent < SilentCycles)
         return;
-    state.backOff = std::clamp(2 * state.backOff, FirstBackOff, LongestBackOff);
+    state.backOff = std::clamp(2 * state.backOff, FirstBackOff, LongestProbeInterval);
     state.probeAt = m_bus.line().now() + state.backOff;
-}
-
-void Poller::schedule()
-{
-    const LineTime now = m_bus.line().now();
-    for (const std::size_t index : m_dueNow) {
-        const LineTime interval = m_plan.spans[index].interval;
-        m_due[index] += interval;
-        if (m_due[index] < now) // what was missed is not made up for
-            m_due[index] = interval == 0ms ? now : now + interval;
-    }
 }
 
 } // namespace dynascope

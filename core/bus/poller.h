@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/poll_values.h"
+#include "core/bus/bus.h"
+#include "core/bus/pollmeasure.h"
+#include "core/bus/pollschedule.h"
 
 #include <array>
 #include <bitset>
@@ -33,8 +35,14 @@ public:
     Result<void> runCycle(Batch &batch);
     Result<Batch> runCycle();
 
+    /// What adapter and host add, as measured so far.
+    const LineDelays &delays() const { return m_measure.delays(); }
+    PollReport report() const { return {delays(), m_taken}; }
+
 private:
     using Indices = std::vector<std::size_t>; ///< of spans of the plan
+    static constexpr int SilentCycles = 3;    ///< as often missed, a device is asked rarely
+    static constexpr int Failures = 2;        ///< as often, and it doesn't know this kind of read
 
     struct DeviceState {
         int silent = 0;          ///< cycles without an answer in a row
@@ -52,8 +60,11 @@ private:
     struct Step {
         Request request;
         Bytes packet;
-        Indices spans;
+        Indices spans, replies; ///< of each span the reply that holds it
+        std::vector<std::uint16_t> begins; ///< of each reply: its first address
+        LineTime cost{};        ///< by the wire and what is known of the adapter
     };
+    enum class Fate { Given, Again, Last }; ///< of what a reply should have brought, in this cycle
     struct Prepared {
         Indices open;
         std::vector<Step> steps;
@@ -70,17 +81,25 @@ private:
     std::vector<Step> planSteps(const Indices &open) const;
     Result<void> readPass(Batch &batch, int pass);
     Result<void> runStep(Batch &batch, const Step &step, int pass);
-    void takeFailure(const Step &step, std::size_t place, int pass);
+    void takeReply(Batch &batch, const Step &step, std::size_t at);
+    Fate takeFailure(const Step &step, std::size_t place, int pass);
+    bool isRefusedJoin(const Step &step, std::size_t place) const;
     void answered(std::uint8_t id, const Step &step);
     void learnRefusal(int &failures);
     void forgetRefusals();
     void missed(std::uint8_t id);
-    void schedule();
+    void countAnew();
+    void measure(const Batch &batch);
+    void takeCosts();
     std::vector<Traits> currentTraits() const;
 
     Bus &m_bus;
     PollPlan m_plan;
-    std::vector<LineTime> m_due;                 ///< per span of the plan
+    PollSchedule m_schedule;
+    PollMeasure m_measure;
+    std::vector<PollReport::Taken> m_taken;
+    std::vector<std::size_t> m_takenOf; ///< per span of the plan: which of them counts it
+    ReadCosts m_costs; ///< for which everything is planned
     std::vector<std::size_t> m_place;            ///< per span of the plan: its value in the batch
     std::array<DeviceState, 256> m_devices;      ///< by ID
     std::vector<Prepared> m_prepared;            ///< of cycles as they were before
@@ -94,6 +113,7 @@ private:
     std::bitset<256> m_groupMissed; ///< nor a plain group read
     std::bitset<256> m_looked;      ///< were silent, answered a Ping: one Read shows whether they are back
     ExchangeResult m_result;
+    LineTime m_lastEnd{}, m_exchanging{}; ///< of the cycle before; so long exchanges took
     std::vector<Step> m_unusual; ///< steps that are not worth keeping
 };
 

@@ -188,7 +188,7 @@ void QualityLog::countRetry(const Request &request)
 
 LineQuality QualityLog::snapshot() const
 {
-    LineQuality quality{m_totals, m_roundTrips, {}, {}};
+    LineQuality quality{m_totals, m_roundTrips, {}, {}, {}};
     for (const auto &device : m_devices) {
         if (device)
             quality.devices.push_back(*device);

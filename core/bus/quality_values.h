@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bus/bus_values.h"
+#include "core/bus/readcost.h"
 
 #include <array>
 
@@ -51,12 +52,27 @@ struct DeviceQuality {
     friend bool operator==(const DeviceQuality &, const DeviceQuality &) = default;
 };
 
+/// How polling went.
+struct PollReport {
+    struct Taken {
+        std::chrono::milliseconds interval{0};
+        quint64 answers = 0; ///< to spans of that interval, since the plan came
+
+        friend bool operator==(const Taken &, const Taken &) = default;
+    };
+    LineDelays delays;
+    std::vector<Taken> taken; ///< by interval
+
+    friend bool operator==(const PollReport &, const PollReport &) = default;
+};
+
 /// What a line was like since it was opened.
 struct LineQuality {
     BusStatistics totals;
     DurationCounts roundTrips;          ///< write to last reply, of exchanges in which nothing was missing
     std::vector<DeviceQuality> devices; ///< those that were asked, by ID
     LineTime at{};                      ///< when it was so, where somebody noted that
+    PollReport polled = {};             ///< likewise
 
     const DeviceQuality *device(std::uint8_t id) const; ///< nullptr: not asked
     DeviceQuality sum() const;                          ///< of all devices

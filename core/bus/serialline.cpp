@@ -63,11 +63,27 @@ Result<void> SerialLine::start(int baudRate, const SerialOptions &options)
     m_port->setFlowControl(QSerialPort::NoFlowControl);
     m_port->clearError();
     posix::setLowLatency(static_cast<int>(m_port->handle())); // best effort: CDC-ACM adapters refuse it
+    m_latencyTimer = posix::latencyTimer(m_guard.path());
     m_hostAllowance = options.hostAllowance.value_or(defaultAllowance(m_guard.path()));
     if (Result<void> set = setBaudRate(baudRate); !set)
         return set;
     discardInput();
     return {};
+}
+
+Result<void> SerialLine::lowerLatency()
+{
+    if (m_lost)
+        return lose();
+    const QString path = m_guard.path();
+    const bool driver = posix::setLowLatency(static_cast<int>(m_port->handle()));
+    m_latencyTimer = posix::latencyTimer(path);
+    if (m_latencyTimer && *m_latencyTimer > 1ms && posix::lowerLatencyTimer(path))
+        m_latencyTimer = posix::latencyTimer(path);
+    if (m_latencyTimer ? *m_latencyTimer <= 1ms : driver)
+        return {};
+    return tl::unexpected(m_latencyTimer ? messages::latencyRefused(m_name, path, *m_latencyTimer)
+                                         : messages::noLatencyTimer(m_name));
 }
 
 LineTime SerialLine::now() const

@@ -27,6 +27,8 @@ public:
     int baudRate() const override { return m_baudRate; }
     Result<void> setBaudRate(int bitsPerSecond) override;
     LineTime hostAllowance() const override { return m_hostAllowance; }
+    std::optional<LineTime> latencyTimer() const override { return m_latencyTimer; }
+    Result<void> lowerLatency() override;
 
 private:
     SerialLine(QString name, posix::PortGuard guard);
@@ -41,6 +43,7 @@ private:
     std::unique_ptr<QSerialPort> m_port;
     int m_baudRate = 57600;
     LineTime m_hostAllowance{};
+    std::optional<LineTime> m_latencyTimer;
     bool m_lost = false;
 };
 

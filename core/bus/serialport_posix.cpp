@@ -139,10 +139,20 @@ bool isPseudoTerminal(const QString &path)
     return path.startsWith(QLatin1String("/dev/pts/"));
 }
 
+static QString latencyFile(const QString &path)
+{
+    return QStringLiteral("/sys/bus/usb-serial/devices/%1/latency_timer").arg(QFileInfo(path).fileName());
+}
+
+bool lowerLatencyTimer(const QString &path)
+{
+    QFile file(latencyFile(path));
+    return file.open(QIODevice::WriteOnly | QIODevice::Unbuffered | QIODevice::ExistingOnly) && file.write("1") == 1;
+}
+
 std::optional<LineTime> latencyTimer(const QString &path)
 {
-    const QString device = QFileInfo(path).fileName();
-    QFile file(QStringLiteral("/sys/bus/usb-serial/devices/%1/latency_timer").arg(device));
+    QFile file(latencyFile(path));
     if (!file.open(QIODevice::ReadOnly))
         return std::nullopt;
     bool isNumber = false;

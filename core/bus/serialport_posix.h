@@ -40,6 +40,8 @@ Wait waitReadable(int descriptor, LineTime duration);
 bool isPseudoTerminal(const QString &path);
 /// How long the adapter holds back what it received, as far as the system tells.
 std::optional<LineTime> latencyTimer(const QString &path);
+/// Sets that to one millisecond where this user may, as the udev rule lets those who sit at the machine.
+bool lowerLatencyTimer(const QString &path);
 /// Asks the driver to hand over bytes as they come. Adapters may refuse it.
 bool setLowLatency(int descriptor);
 /// The rate that the driver really made of what it was asked for.

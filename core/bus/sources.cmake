@@ -11,15 +11,23 @@ target_sources(dynascope_core PRIVATE
     bus/jobqueue.cpp bus/jobqueue.h
     bus/lateanswers.cpp bus/lateanswers.h
     bus/learnedtiming.cpp bus/learnedtiming.h
-    bus/line.h bus/linefactory.h bus/traits.h
-    bus/messages.cpp bus/messages.h
+    bus/line.cpp bus/line.h bus/linefactory.h bus/traits.h
+    bus/messages.cpp bus/messages.h bus/messages_latency.cpp
     bus/networkaddress.cpp bus/networkaddress_values.h
     bus/networkline.cpp bus/networkline.h bus/networklinefactory.h
     bus/operations.cpp bus/operations.h
     bus/outbox.cpp bus/outbox.h
     bus/poll_values.h
-    bus/poller.cpp bus/poller.h
+    bus/poller.cpp bus/poller.h bus/poller_plan.cpp
+    bus/pollmeasure.cpp bus/pollmeasure.h
+    bus/pollprediction.cpp bus/pollprediction.h
+    bus/pollschedule.cpp bus/pollschedule.h
+    bus/pollturns.cpp bus/pollturns.h
     bus/quality.cpp bus/quality.h bus/quality_values.h
+    bus/ratelimit.cpp bus/ratelimit.h bus/ratelimit_values.h
+    bus/readchoice.cpp bus/readchoice.h
+    bus/readcost.cpp bus/readcost.h
+    bus/readgroups.cpp bus/readgroups.h
     bus/readplan.cpp bus/readplan.h
     bus/remainder.cpp bus/remainder.h
     bus/rfc2217.cpp bus/rfc2217.h

@@ -38,6 +38,33 @@ double LineHealth::bytesPerSecond() const
     return rate(m_latest.sum().bytes, m_previous.sum().bytes);
 }
 
+double LineHealth::answersPerSecond(std::chrono::milliseconds interval) const
+{
+    if (m_polled.size() < 2)
+        return 0;
+    const auto count = [interval](const Polled &polled) {
+        const auto at = std::ranges::find(polled.report.taken, interval, &PollReport::Taken::interval);
+        return at == polled.report.taken.end() ? quint64(0) : at->answers;
+    };
+    const double seconds = std::chrono::duration<double>(m_polled.back().at - m_polled.front().at).count();
+    return seconds > 0 ? static_cast<double>(count(m_polled.back()) - count(m_polled.front())) / seconds : 0.0;
+}
+
+/// Long enough that what comes once a second is counted right.
+void LineHealth::keep(const LineQuality &quality)
+{
+    using Taken = PollReport::Taken;
+    constexpr LineTime Kept = std::chrono::seconds(4);
+    const auto goesOn = [](const Taken &before, const Taken &now) {
+        return before.interval == now.interval && before.answers <= now.answers;
+    };
+    if (!m_polled.empty() && !std::ranges::equal(m_polled.back().report.taken, quality.polled.taken, goesOn))
+        m_polled.clear(); // another plan
+    m_polled.push_back({quality.at, quality.polled});
+    while (m_polled.size() > 2 && m_polled.front().at < quality.at - Kept)
+        m_polled.pop_front();
+}
+
 void LineHealth::startAnew()
 {
     m_origin = m_latest;
@@ -60,6 +87,7 @@ void LineHealth::startAnew(std::uint8_t id)
 void LineHealth::begin()
 {
     m_latest = m_previous = m_origin = {};
+    m_polled.clear();
     show();
 }
 
@@ -67,6 +95,7 @@ void LineHealth::take(LineQuality quality)
 {
     m_previous = std::move(m_latest);
     m_latest = std::move(quality);
+    keep(m_latest);
     if (m_origin.at == LineTime())
         m_origin.at = m_latest.at;
     show();

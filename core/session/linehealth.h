@@ -5,6 +5,8 @@
 
 #include <QObject>
 
+#include <deque>
+
 namespace dynascope {
 
 /// What the answers on a line are like since counting began, by the ID of the devices that stand there now. GUI thread;
@@ -22,6 +24,9 @@ public:
     /// Of good answers, between the last two reports.
     double bytesPerSecond(std::uint8_t id) const;
     double bytesPerSecond() const; ///< of all devices
+    const LineDelays &delays() const { return m_latest.polled.delays; } ///< what adapter and host add, as measured
+    /// Answers a second to what is read at this interval, over the last seconds.
+    double answersPerSecond(std::chrono::milliseconds interval) const;
 
     /// A person wants to see what it is like from now on.
     void startAnew();
@@ -38,11 +43,17 @@ signals:
 
 private:
     void show();
+    void keep(const LineQuality &quality);
     double rate(quint64 now, quint64 before) const;
 
     LineQuality m_latest;   ///< as the bus thread counts
     LineQuality m_previous; ///< the report before
     LineQuality m_origin;   ///< where counting began
+    struct Polled {
+        LineTime at{};
+        PollReport report;
+    };
+    std::deque<Polled> m_polled; ///< of the last seconds, while the plan was the same
     LineQuality m_shown;
 };
 

@@ -82,6 +82,8 @@ void LineSession::onThreadState()
         takeBatches(); // from before
         m_cycleRate = 0;
         m_possibleRate = 0;
+        m_prediction = {};
+        m_limits.clear();
         m_busLoad = 0;
         for (const auto &device : m_devices)
             device->setAllStale();
@@ -250,6 +252,50 @@ void LineSession::countFailure(Device &device, const PollValue &value)
         device.setState(Device::State::Silent);
 }
 
+PolledLine LineSession::polled() const
+{
+    PolledLine line{m_plan, baudRate(), m_health.delays(), {}, {}};
+    for (const Traits &traits : m_plan.traits) {
+        const Device *device = deviceAt(traits.id, baudRate());
+        if (!device)
+            continue;
+        if (device->state() == Device::State::Silent || traits.statusReturnLevel < 1)
+            line.silent.push_back(traits.id);
+        else if (!traits.fastReads && device->traits().fastReads)
+            line.couldBeFast.push_back(traits.id);
+    }
+    return line;
+}
+
+/// Planning takes its time: only where something is other than it was.
+void LineSession::predict()
+{
+    PolledLine line = polled();
+    if (line.isLike(m_predicted) && m_prediction.shares.sum() > 0)
+        return;
+    m_predicted = std::move(line);
+    m_limits.clear();
+    m_prediction = predictPoll(m_predicted.plan, m_predicted.baudRate, m_predicted.delays, m_predicted.silent);
+    m_possibleRate = possibleCycleRate(m_plan, baudRate());
+}
+
+const std::vector<RateLimit> &LineSession::limits()
+{
+    if (m_limits.empty())
+        m_limits = limitsOf(polled());
+    return m_limits;
+}
+
+void LineSession::lowerLatency(QObject *context, std::function<void(const Result<void> &)> done)
+{
+    m_thread->run<bool>(
+        Priority::Click, context,
+        [](JobContext &job) { return job.bus().line().lowerLatency().map([] { return true; }); },
+        [done = std::move(done)](const Result<bool> &lowered) {
+            done(lowered ? Result<void>() : tl::unexpected(lowered.error()));
+        });
+}
+
 void LineSession::measureRates()
 {
     const double seconds = static_cast<double>(m_sinceMeasured.nsecsElapsed()) * 1e-9;
@@ -258,7 +304,7 @@ void LineSession::measureRates()
     const LineTime busy = m_thread->statistics().busy;
     m_busLoad = std::clamp(std::chrono::duration<double>(busy - m_busyAtMeasure).count() / seconds, 0.0, 1.0);
     m_cycleRate = m_fullRateCycles / seconds;
-    m_possibleRate = possibleCycleRate(m_plan, baudRate());
+    predict();
     m_busyAtMeasure = busy;
     m_fullRateCycles = 0;
     m_sinceMeasured.restart();

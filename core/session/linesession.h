@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bus/busthread.h"
+#include "core/bus/ratelimit.h"
 #include "core/session/devicekeys.h"
 #include "core/session/linehealth.h"
 
@@ -57,6 +58,12 @@ public:
     double cycleRate() const { return m_cycleRate; }
     /// What the wire would allow for the same; see possibleCycleRate().
     double possibleRate() const { return m_possibleRate; }
+    /// What polling is taken to be like, with what adapter and host were seen to add.
+    const PollPrediction &prediction() const { return m_prediction; }
+    const PollPlan &pollPlan() const { return m_plan; }
+    const std::vector<RateLimit> &limits(); ///< see limitsOf()
+    /// Asks adapter and driver to hand over what comes at once (Line::lowerLatency).
+    void lowerLatency(QObject *context, std::function<void(const Result<void> &)> done);
     double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second in which the wire carried bytes
     LineHealth &health() { return m_health; }
 
@@ -76,6 +83,8 @@ private:
     void take(const Batch &batch);
     void countFailure(Device &device, const PollValue &value);
     void measureRates();
+    PolledLine polled() const;
+    void predict();
     void park(Device &device);
     void countAnew(const Device &device);
 
@@ -95,6 +104,9 @@ private:
     PollPlan m_plan;
     double m_cycleRate = 0;
     double m_possibleRate = 0;
+    PolledLine m_predicted; ///< what m_prediction is of
+    PollPrediction m_prediction;
+    std::vector<RateLimit> m_limits; ///< empty: not looked for yet
     double m_busLoad = 0;
 };
 

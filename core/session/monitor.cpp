@@ -52,6 +52,7 @@ void Monitor::drop(Device *device)
         return entry.first.device == device->key() && !m_watches.contains(entry.first);
     });
     std::erase_if(m_watches, [device](const Watch &watch) { return watch.device == device->key(); });
+    std::erase_if(m_rates, [device](const auto &entry) { return entry.first.device == device->key(); });
     std::erase(m_selected, device->key());
     replanSoon();
     emit watchesChanged();
@@ -81,6 +82,24 @@ void Monitor::unwatch(const Watch &watch)
         return;
     replanSoon();
     emit watchesChanged();
+}
+
+void Monitor::setRate(const Watch &watch, double hertz)
+{
+    if (rate(watch) == hertz)
+        return;
+    if (hertz > 0)
+        m_rates[watch] = hertz;
+    else
+        m_rates.erase(watch);
+    replanSoon();
+    emit watchesChanged();
+}
+
+double Monitor::rate(const Watch &watch) const
+{
+    const auto at = m_rates.find(watch);
+    return at == m_rates.end() ? 0 : at->second;
 }
 
 void Monitor::select(const std::vector<Device *> &devices)
@@ -125,6 +144,12 @@ void Monitor::setPaused(bool paused)
     replanSoon();
 }
 
+void Monitor::setMayReadFast(bool may)
+{
+    m_mayReadFast = may;
+    replanSoon();
+}
+
 void Monitor::replanSoon()
 {
     if (!m_replanTimer.isActive())
@@ -139,7 +164,7 @@ void Monitor::replan()
             if (m_paused)
                 break;
             const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
-            DeviceWatches watches{device.get(), {}, isSelected, {}, {}};
+            DeviceWatches watches{device.get(), {}, isSelected, {}, {}, {}};
             for (auto at = m_unfolded.lower_bound({device->key(), 0});
                  isSelected && at != m_unfolded.end() && at->device == device->key(); ++at)
                 watches.unfolded.insert(at->field);
@@ -148,12 +173,16 @@ void Monitor::replan()
             for (auto at = m_watches.lower_bound({device->key(), 0});
                  at != m_watches.end() && at->device == device->key(); ++at) {
                 watches.fields.push_back(at->field);
+                if (const double hertz = rate(*at); hertz > 0)
+                    watches.rates[at->field] = hertz;
                 if (line->state() != BusThread::State::Open || device->state() != Device::State::Present)
                     markGap(*at);
             }
             devices.push_back(std::move(watches));
         }
         PollPlan plan = planWatches(devices, line->baudRate());
+        for (Traits &device : plan.traits)
+            device.fastReads = device.fastReads && m_mayReadFast;
         SentPlan &sent = m_sentPlans[line.get()];
         if (sent.generation != line->generation())
             sent = {line->generation(), {}};

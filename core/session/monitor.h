@@ -19,7 +19,7 @@ struct Watch {
 
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///
-/// Watched fields at full rate; RAM of the selected device at 10 Hz; Torque Enable, Hardware Error Status, temperature
+/// Watched fields at full rate, or as often as is wanted; RAM of the selected device at 10 Hz; Torque Enable, Hardware Error Status, temperature
 /// and voltage of all devices at 1 Hz; what tells of a restart each 9 s.
 class Monitor : public QObject
 {
@@ -31,6 +31,9 @@ public:
     void watch(const Watch &watch);
     void unwatch(const Watch &watch); ///< its history stays until clear() or the device goes
     bool isWatched(const Watch &watch) const { return m_watches.contains(watch); }
+    /// How often it is wanted, Hz; 0, and so at first: as often as the line allows.
+    void setRate(const Watch &watch, double hertz);
+    double rate(const Watch &watch) const;
     const std::set<Watch> &watches() const { return m_watches; }
     void select(const std::vector<Device *> &devices); ///< whose RAM the grid shows
     /// Fields of long runs (indirect.h) that the grid shows of them; the others aren't polled.
@@ -42,6 +45,9 @@ public:
     /// its history until unwatch() or clear().
     const History *history(const Watch &watch) const;
     void clear(); ///< all histories
+
+    bool mayReadFast() const { return m_mayReadFast; }
+    void setMayReadFast(bool may); ///< fast reads of those who know them; so at first
 
     bool isPaused() const { return m_paused; }
     void setPaused(bool paused); ///< no polling at all
@@ -59,11 +65,13 @@ private:
 
     Session &m_session;
     std::set<Watch> m_watches;
+    std::map<Watch, double> m_rates; ///< of those not at full rate; stay while they aren't watched
     std::map<Watch, History> m_histories;
     std::vector<DeviceKey> m_selected;
     std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back
     bool m_paused = false;
+    bool m_mayReadFast = true;
     QTimer m_replanTimer;
     struct SentPlan {
         int generation = 0; ///< of the bus thread that has it

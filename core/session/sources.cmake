@@ -20,6 +20,7 @@ target_sources(dynascope_core PRIVATE
     session/deviceplace.cpp session/deviceplace.h
     session/groupwrite.cpp session/groupwrite.h
     session/history.cpp session/history.h
+    session/indirectpacking.cpp session/indirectpacking.h
     session/journal/journal.cpp session/journal/journal.h
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h

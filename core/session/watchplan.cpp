@@ -5,6 +5,7 @@
 #include "core/table/indirect.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace dynascope {
 namespace {
@@ -55,7 +56,38 @@ void addSpans(PollPlan &plan, const Device &device, std::chrono::milliseconds in
         plan.spans.push_back({device.key(), span, interval});
 }
 
+/// What is watched, by how often; only what touches is joined.
+void addWatched(PollPlan &plan, const DeviceWatches &watches)
+{
+    const Device &device = *watches.device;
+    std::map<std::chrono::milliseconds, std::set<int>> byInterval;
+    for (const int field : watches.fields) {
+        const auto rate = watches.rates.find(field);
+        byInterval[rate == watches.rates.end() ? 0ms : intervalOf(rate->second)].insert(field);
+    }
+    for (const auto &[interval, fields] : byInterval) {
+        const std::size_t begin = plan.spans.size();
+        for (const int index : fields) { // by address
+            const Field &field = device.table().fields()[static_cast<std::size_t>(index)];
+            Span *last = plan.spans.size() > begin ? &plan.spans.back().span : nullptr;
+            if (last && field.address <= last->address + last->length)
+                last->length = static_cast<std::uint16_t>(std::max(last->address + last->length, field.end()) - last->address);
+            else
+                plan.spans.push_back({device.key(), {device.id(), field.address, field.size}, interval});
+        }
+    }
+}
+
 } // namespace
+
+std::chrono::milliseconds intervalOf(double hertz)
+{
+    constexpr double Fastest = 1000; // beyond it, and below it by mistake: as fast as the line allows
+    constexpr double Slowest = 0.01;
+    if (!(hertz > 0) || hertz >= Fastest)
+        return 0ms;
+    return std::chrono::milliseconds(std::lround(1000 / std::max(hertz, Slowest)));
+}
 
 PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
 {
@@ -68,9 +100,7 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
             continue;
         }
         const Field *first = device.table().fields().data();
-        addSpans(plan, device, 0ms, [&](const Field &field) {
-            return std::ranges::find(watches.fields, static_cast<int>(&field - first)) != watches.fields.end();
-        });
+        addWatched(plan, watches);
         const std::set<int> folded = watches.isSelected ? foldedFields(watches) : std::set<int>();
         if (watches.isSelected) {
             addSpans(plan, device, SelectedInterval, [&](const Field &field) {

@@ -3,6 +3,7 @@
 
 #include "core/session/device.h"
 
+#include <map>
 #include <set>
 
 namespace dynascope {
@@ -10,13 +11,17 @@ namespace dynascope {
 /// What one device is polled for.
 struct DeviceWatches {
     const Device *device = nullptr;
-    std::vector<int> fields;  ///< at full rate, indices of its table
+    std::vector<int> fields;  ///< indices of its table; at full rate where `rates` says nothing else
     bool isSelected = false;  ///< its RAM is on screen: 10 Hz
     std::set<int> unfolded = {}; ///< fields of long runs (indirect.h) that are on screen, too
     std::set<int> signs = {};    ///< read at least each 10 s, whatever else is
+    std::map<int, double> rates = {}; ///< of `fields`: Hz
 };
 
-/// The spans to poll. Pure. Neighbouring fields are joined, gaps read through where that costs less than asking again;
+/// How long between two readings at this rate; 0: it is every cycle's.
+std::chrono::milliseconds intervalOf(double hertz);
+
+/// The spans to poll. Pure. Fields that touch are one span; which gaps are read through the bus knows (chooseReads);
 /// besides what is watched and selected, every device's state (torque, hardware error, voltage, temperature) at 1 Hz, and
 /// Return Delay Time and Status Return Level until they are known.
 /// Devices that are rebooting or at another rate than `baudRate`, the line's, are left out; of these the bus learns how

@@ -21,6 +21,7 @@ public:
     int baudRate() const override { return m_baudRate; }
     Result<void> setBaudRate(int bitsPerSecond) override;
     LineTime hostAllowance() const override { return m_hostAllowance; }
+    std::optional<LineTime> latencyTimer() const override { return m_bus.faults().latencyTimer; }
 
     void advance(LineTime duration) { m_now += duration; } ///< lets virtual time pass
     void setHostAllowance(LineTime allowance) { m_hostAllowance = allowance; }

@@ -2,6 +2,7 @@
 // What polling costs: the processor's time a read on a line that costs nothing, the crossing to the GUI thread, and how
 // near to what the wire allows it comes over pty and QSerialPort.
 #include "core/bus/poller.h"
+#include "core/bus/pollprediction.h"
 #include "core/bus/seriallinefactory.h"
 #include "core/session/monitor.h"
 #include "core/sim/ptyserver.h"
@@ -38,6 +39,7 @@ constexpr LineTime Processing = 100us; ///< of a simulated servo
 constexpr int NullCycles = 200'000;
 constexpr int Blocks = 20; ///< on a machine with other work the calmest one tells most
 constexpr int BlockCycles = 200;
+constexpr LineTime MeasuringTime = 2s; ///< what host and terminal add, for the prediction
 
 double cpuSeconds(clockid_t clock)
 {
@@ -199,7 +201,7 @@ void cyclesOverPty(const Catalog &catalog)
     if (!line)
         qFatal("%s", qPrintable(line.error().text));
     std::printf("Over pty + QSerialPort, 1 Mbps, %d servos x %d bytes, return delay 0, %d cycles each; the calmest "
-                "%d of them behind the bar:\n",
+                "%d of them behind the bar. Predicted before they run, with what was measured until then:\n",
         Servos, Length, Blocks * BlockCycles, BlockCycles);
     for (const auto &[kind, name] : Kinds) {
         Bus bus(**line);
@@ -207,11 +209,19 @@ void cyclesOverPty(const Catalog &catalog)
         poller.setPlan(planFor(kind));
         std::vector<Cycles> blocks;
         Cycles all;
+        const LineTime measured = (*line)->now() + MeasuringTime;
+        while ((*line)->now() < measured)
+            (void)run(**line, poller);
+        const PollPrediction predicted = predictPoll(planFor(kind), PtyBaud, poller.delays());
         for (int block = 0; block < Blocks; ++block) {
             blocks.push_back(run(**line, poller));
             all.add(blocks.back());
         }
         Cycles &calmest = *std::ranges::min_element(blocks, {}, &Cycles::whole);
+        const double achieved = Blocks * BlockCycles / (microseconds(all.whole) * 1e-6);
+        std::printf("  %-6s  predicted %.1f Hz (%.0f us an exchange, %.0f us a cycle measured), achieved %.1f Hz: %.3f\n",
+            name, predicted.cycleRate, microseconds(poller.delays().perExchange), microseconds(poller.delays().perCycle),
+            achieved, achieved / predicted.cycleRate);
         std::printf("  %-6s  limit %.0f us", name, microseconds(limitOf(kind)));
         print(all, limitOf(kind));
         std::printf("  |");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/poller.h"
 #include "tests/support/fakeservos.h"
+#include "tests/support/oracle.h"
 #include "tests/support/testmain.h"
 
 using namespace dynascope;
@@ -169,6 +170,38 @@ private slots:
         }
         QVERIFY(gaps.front() <= 100ms);
         QVERIFY(gaps.back() > 2900ms && gaps.back() <= 3s);
+    }
+
+    /// A table may have a hole that its device refuses to read: then it is read around it, in the same cycle.
+    void aRefusedGapIsReadAround()
+    {
+        World world;
+        world.line.handler = [&](const Bytes &request) {
+            const int length = request[7] == static_cast<std::uint8_t>(Instruction::Read) ? request[10] : 0;
+            if (length > 4)
+                return FakeLine::Answer{{FakeLine::DefaultDelay, oracle::status(1, 7, {})}}; // Access error
+            return world.servos.answer(request);
+        };
+        world.servos.servos[1].registers[140] = 7;
+        world.plan({span(1), {101, {1, 140, 1}, 0ms}});
+        QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101=1 101=7"));
+        const std::size_t sent = world.line.sent.size();
+        QCOMPARE(sent, std::size_t(3));
+        QCOMPARE(toText(world.poller.runCycle()), QStringLiteral("101=1 101=7"));
+        QCOMPARE(world.line.sent.size(), sent + 2); // it is known now
+    }
+
+    /// Where it can be read, it is one exchange, and each span gets its part.
+    void aGapIsReadThrough()
+    {
+        World world;
+        world.servos.servos[1].registers[140] = 7;
+        world.plan({{101, {1, 140, 1}, 0ms}, span(1)});
+        const auto batch = world.poller.runCycle();
+        QCOMPARE(toText(batch), QStringLiteral("101=7 101=1"));
+        QCOMPARE(batch->values[0].data.size(), std::size_t(1));
+        QCOMPARE(batch->values[1].data.size(), std::size_t(4));
+        QCOMPARE(world.line.sent.size(), std::size_t(1));
     }
 
     void aDeviceThatAnswersOnlyPingIsReadEverMoreRarely()

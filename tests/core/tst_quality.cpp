@@ -294,6 +294,28 @@ private slots:
         QCOMPARE(text(*health.quality().device(1)), QStringLiteral("good 1"));
     }
 
+    /// What comes once a second is counted over more than one.
+    void answersOfAnInterval()
+    {
+        LineHealth health;
+        const auto report = [&health](LineTime at, quint64 slow, std::chrono::milliseconds interval = 1s) {
+            LineQuality quality = line({device(1, 10, 0)}, at);
+            quality.polled.taken = {{interval, slow}};
+            health.take(quality);
+        };
+        report(1s, 0);
+        QCOMPARE(health.answersPerSecond(1s), 0.0);
+        for (int half = 1; half <= 20; ++half)
+            report(1s + half * 500ms, static_cast<quint64>(3 * ((half + 1) / 2)));
+        QVERIFY(std::abs(health.answersPerSecond(1s) - 3) < 0.5);
+        report(20s, 2); // another plan
+        QCOMPARE(health.answersPerSecond(1s), 0.0);
+        report(21s, 12, 100ms);
+        report(22s, 32, 100ms);
+        QCOMPARE(health.answersPerSecond(100ms), 20.0);
+        QCOMPARE(health.answersPerSecond(1s), 0.0);
+    }
+
     void verdicts_data()
     {
         QTest::addColumn<quint64>("good");

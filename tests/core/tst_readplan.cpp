@@ -235,7 +235,7 @@ private slots:
     {
         const std::vector<PollSpan> spans{{7, {1, 132, 4}, {}}, {8, {2, 132, 4}, {}}};
         const std::vector<Traits> devices{traits(1, false), traits(2, false)};
-        QCOMPARE(toText(planExchanges(spans, devices)), QStringList(QStringLiteral("Sync Read 1 2")));
+        QCOMPARE(toText(planExchanges(spans, devices, {})), QStringList(QStringLiteral("Sync Read 1 2")));
     }
 };
 

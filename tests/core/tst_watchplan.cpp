@@ -5,6 +5,8 @@
 
 #include <QSignalSpy>
 
+#include <cmath>
+
 using namespace dynascope;
 
 namespace {
@@ -75,6 +77,25 @@ private slots:
         // 128..135 and 146: ten bytes between them are dearer than a second span.
         QCOMPARE(plan.mid(0, 2),
                  QStringList({QStringLiteral("#1 128+8 every 0 ms"), QStringLiteral("#1 146+1 every 0 ms")}));
+    }
+
+    void eachFieldAsOftenAsItIsWanted()
+    {
+        const Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        const int position = m_table->indexOf(u"Present Position");
+        const int velocity = m_table->indexOf(u"Present Velocity");
+        const int temperature = m_table->indexOf(u"Present Temperature");
+        DeviceWatches watches{&device, {position, velocity, temperature}, false};
+        watches.rates = {{velocity, 50.0}, {temperature, 1.0}};
+        const QStringList plan = asText(planWatches({watches}, 57600));
+        QCOMPARE(plan.mid(0, 3), QStringList({QStringLiteral("#1 132+4 every 0 ms"), QStringLiteral("#1 128+4 every 20 ms"),
+                                              QStringLiteral("#1 146+1 every 1000 ms")}));
+        using namespace std::chrono_literals;
+        QCOMPARE(intervalOf(0), 0ms);
+        QCOMPARE(intervalOf(-1), 0ms);
+        QCOMPARE(intervalOf(std::nan("")), 0ms);
+        QCOMPARE(intervalOf(5000), 0ms);
+        QCOMPARE(intervalOf(1e-9), 100s);
     }
 
     void theSelectedDeviceShowsItsRam()

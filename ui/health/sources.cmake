@@ -3,4 +3,8 @@ target_sources(dynascope_ui PRIVATE
     health/healthmodel.cpp health/healthmodel.h
     health/healthpanel.cpp health/healthpanel.h
     health/healthtexts.cpp health/healthtexts.h
+    health/ratebar.cpp health/ratebar.h
+    health/ratepopup.cpp health/ratepopup.h
+    health/rateremedies.cpp health/rateremedies.h
+    health/ratetexts.cpp health/ratetexts.h
 )

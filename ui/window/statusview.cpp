@@ -10,6 +10,7 @@
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QToolButton>
 
 #include <algorithm>
 
@@ -32,9 +33,8 @@ StatusView::StatusView(QWidget *parent)
     layout->addWidget(m_name, 1);
     m_devices = addFigure(QStringLiteral("statusDevices"), tr("Devices"), QStringLiteral("252 + 252"),
                           tr("Devices at the line's baud rate, and those parked at others"));
-    m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 of 0000 Hz"),
-                       tr("Poll cycles a second of what is plotted, over the last second, of those that the wire allows at "
-                          "this baud rate with these Return Delay Times"));
+    m_rate = addFigure(QStringLiteral("statusRate"), tr("Cycle"), QStringLiteral("0000 of 0000 Hz"), QString());
+    addRateButton();
     m_load = addFigure(QStringLiteral("statusLoad"), tr("Bus load"), QStringLiteral("100 %"),
                        tr("Part of the last second in which the wire carried bytes. The rest is waiting: for answers, for the "
                           "adapter, for this computer."));
@@ -59,6 +59,32 @@ QLabel *StatusView::addFigure(const QString &name, const QString &caption, const
     box->addWidget(label);
     box->addWidget(figure);
     return figure;
+}
+
+/// Behind the cycle rate: why it is no higher.
+void StatusView::addRateButton()
+{
+    m_rateButton = new QToolButton(this);
+    m_rateButton->setObjectName(QStringLiteral("statusRateButton"));
+    m_rateButton->setAutoRaise(true);
+    m_rateButton->setText(tr("Why?"));
+    m_rateButton->setAccessibleName(tr("What holds polling up"));
+    m_rateButton->setToolTip(tr("What is read how often, what takes the time, and what can be done about it"));
+    layout()->addWidget(m_rateButton);
+    connect(m_rateButton, &QToolButton::clicked, this, [this] {
+        if (m_line)
+            emit ratesRequested(m_line, m_rateButton);
+    });
+}
+
+QString StatusView::rateToolTip() const
+{
+    QStringList lines{tr("Poll cycles a second of what is plotted, over the last second, of those that the wire allows at "
+                         "this baud rate with these Return Delay Times")};
+    const double predicted = m_line ? m_line->prediction().cycleRate : 0;
+    if (predicted > 0)
+        lines << tr("With what adapter and computer were seen to add %1 Hz are predicted.").arg(qRound(predicted));
+    return lines.join(QLatin1Char('\n'));
 }
 
 void StatusView::setLine(LineSession *line)
@@ -107,6 +133,8 @@ void StatusView::update()
         m_rate->setText(tr("%1 of %2 Hz").arg(qRound(m_line->cycleRate())).arg(qRound(m_line->possibleRate())));
     else
         m_rate->setText(polls ? tr("%1 Hz").arg(qRound(m_line->cycleRate())) : none);
+    m_rate->setToolTip(rateToolTip());
+    m_rateButton->setVisible(open);
     const bool isKnown = open && !isRateTheServers(m_line->name()); // nobody here knows at which rate a server works
     m_load->setText(isKnown ? tr("%1 %").arg(qRound(m_line->busLoad() * 100)) : none);
     updateErrors();

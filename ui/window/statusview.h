@@ -5,6 +5,7 @@
 #include <QWidget>
 
 class QLabel;
+class QToolButton;
 
 namespace dynascope {
 
@@ -21,6 +22,9 @@ public:
 
     void setLine(LineSession *line); ///< nullptr: none
 
+signals:
+    void ratesRequested(dynascope::LineSession *line, QWidget *over); ///< more of how often is read what
+
 protected:
     void changeEvent(QEvent *event) override;
 
@@ -29,11 +33,14 @@ private:
     void update();
     void countDevices();
     void updateErrors();
+    void addRateButton();
+    QString rateToolTip() const;
 
     QPointer<LineSession> m_line;
     ElidedLabel *m_name;
     QLabel *m_devices;
     QLabel *m_rate;
+    QToolButton *m_rateButton;
     QLabel *m_load;
     QLabel *m_errors = nullptr;
 };
