@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/history.h"
+#include "core/session/histories.h"
 #include "core/session/session.h"
 
 #include <map>
 #include <set>
 
 namespace dynascope {
-
-/// A field of a device that is read all the time.
-struct Watch {
-    DeviceKey device = 0;
-    int field = 0; ///< index in its table
-
-    friend auto operator<=>(const Watch &, const Watch &) = default;
-};
 
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///
@@ -40,8 +32,10 @@ public:
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
-    const History *history(const Watch &watch) const;
+    const History *history(const Watch &watch) const { return m_histories.find(watch); }
     void clear(); ///< all histories
+    const Histories &histories() const { return m_histories; }
+    void setHistoryBudget(std::size_t bytes) { m_histories.setBudget(bytes); } ///< of all of them
 
     bool isPaused() const { return m_paused; }
     void setPaused(bool paused); ///< no polling at all
@@ -55,11 +49,10 @@ private:
     void replanSoon();
     void replan();
     void record(const Batch &batch);
-    void markGap(const Watch &watch);
 
     Session &m_session;
     std::set<Watch> m_watches;
-    std::map<Watch, History> m_histories;
+    Histories m_histories;
     std::vector<DeviceKey> m_selected;
     std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back
