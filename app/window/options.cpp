@@ -35,6 +35,10 @@ WindowOptions parseOptions(const QApplication &application)
         QStringLiteral("PORT"));
     const QCommandLineOption baud(QStringLiteral("baud"), QStringLiteral("The line's baud rate, bits per second."),
                                   QStringLiteral("RATE"));
+    const QCommandLineOption history(
+        QStringLiteral("history-budget"),
+        QStringLiteral("Memory for what is plotted, megabytes (512). When it is used up, the oldest loses detail."),
+        QStringLiteral("MB"));
     QCommandLineOption picture(
         QStringLiteral("offscreen-picture"),
         QStringLiteral("Render the window without a screen for a few seconds, save FILE as PNG and end."),
@@ -43,7 +47,7 @@ WindowOptions parseOptions(const QApplication &application)
                                 QStringLiteral("Write the pictures of the documents into FOLDER and end."),
                                 QStringLiteral("FOLDER"));
     pictures.setFlags(QCommandLineOption::HiddenFromHelp);
-    parser.addOptions({port, baud, picture, pictures});
+    parser.addOptions({port, baud, history, picture, pictures});
     if (!parser.parse(application.arguments())) {
         std::fprintf(stderr, "dynascope: %s\n", qPrintable(parser.errorText()));
         std::exit(2);
@@ -63,6 +67,14 @@ WindowOptions parseOptions(const QApplication &application)
         if (!isNumber || options.baudRate <= 0) {
             std::fprintf(stderr, "dynascope: --baud takes bits per second, not \"%s\"\n",
                          qPrintable(parser.value(baud)));
+            std::exit(2);
+        }
+    }
+    if (parser.isSet(history)) {
+        options.historyBudget = parser.value(history).toInt();
+        if (options.historyBudget < 16 || options.historyBudget > 1'000'000) {
+            std::fprintf(stderr, "dynascope: --history-budget takes 16 megabytes or more, not \"%s\"\n",
+                         qPrintable(parser.value(history)));
             std::exit(2);
         }
     }

@@ -56,6 +56,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_ramGuard(m_session, m_monitor, m_commands, m_journal)
     , m_stop(m_session, m_commands)
 {
+    if (options.historyBudget > 0)
+        m_monitor.setHistoryBudget(static_cast<std::size_t>(options.historyBudget) << 20);
     m_journal.setPatience({}); // STOP waits for no other program
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(

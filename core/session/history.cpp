@@ -7,6 +7,9 @@ namespace dynascope {
 
 namespace {
 
+/// Of a history with its node in a map, and of three deques that are nearly empty.
+constexpr std::size_t FixedBytes = sizeof(History) + 3 * (512 + 64) + 10 * HistoryMemory::Overhead;
+
 /// The start of column `index` where `count` columns share [from, to), without overflow at any length.
 LineTime columnStart(LineTime from, LineTime to, std::size_t index, std::size_t count)
 {
@@ -18,85 +21,151 @@ LineTime columnStart(LineTime from, LineTime to, std::size_t index, std::size_t 
 
 } // namespace
 
-/// Of the samples [from, to) of this chunk, at least one: what lies before and after whole blocks, finer at both ends.
-History::Extremes History::Chunk::extremes(std::size_t from, std::size_t to) const
+/// Reads by position, and remembers which chunk it was in: most reads go near the one before.
+class History::Reader
 {
-    if (from == 0 && to == ChunkSize)
-        return all;
-    Extremes result{raw[from], raw[from]};
-    const auto samples = [this, &result](std::size_t begin, std::size_t end) {
-        for (; begin < end; ++begin)
-            result.include({raw[begin], raw[begin]});
-    };
-    const auto blocks = [&result](const auto &of, std::size_t begin, std::size_t end) {
-        for (; begin < end; ++begin)
-            result.include(of[begin]);
-    };
-    const std::size_t fineBegin = (from + FineSize - 1) / FineSize;
-    const std::size_t fineEnd = to / FineSize;
-    if (fineBegin >= fineEnd) {
-        samples(from, to);
-        return result;
+public:
+    explicit Reader(const History &history) : m_history(history) { }
+
+    LineTime time(Position position)
+    {
+        if (position >= m_history.m_openBegin)
+            return m_history.m_open->at[position - m_history.m_openBegin];
+        const std::size_t slot = seek(position);
+        return m_chunk->at(slot);
     }
-    samples(from, fineBegin * FineSize);
-    samples(fineEnd * FineSize, to);
-    const std::size_t coarseBegin = (fineBegin + Fan - 1) / Fan;
-    const std::size_t coarseEnd = fineEnd / Fan;
-    if (coarseBegin >= coarseEnd) {
-        blocks(fine, fineBegin, fineEnd);
-        return result;
+    std::int32_t raw(Position position)
+    {
+        if (position >= m_history.m_openBegin)
+            return m_history.m_open->raw[position - m_history.m_openBegin];
+        const std::size_t slot = seek(position);
+        return m_chunk->raw(slot);
     }
-    blocks(fine, fineBegin, coarseBegin * Fan);
-    blocks(fine, coarseEnd * Fan, fineEnd);
-    blocks(coarse, coarseBegin, coarseEnd);
+    bool hasGap(Position position)
+    {
+        if (position >= m_history.m_openBegin)
+            return m_history.m_open->gaps[position - m_history.m_openBegin];
+        const std::size_t slot = seek(position);
+        return m_chunk->hasGap(slot);
+    }
+    Extremes extremes(Position from, Position to);
+    Position findNear(LineTime at, Position from, Position guess);
+
+private:
+    std::size_t seek(Position position)
+    {
+        const Position chunk = (position - m_history.m_packedBegin) / ChunkSize;
+        if (chunk != m_index) {
+            m_index = chunk;
+            m_chunk = &m_history.m_packed[static_cast<std::size_t>(chunk)];
+        }
+        return position % ChunkSize;
+    }
+
+    const History &m_history;
+    const PackedChunk *m_chunk = nullptr;
+    Position m_index = std::numeric_limits<Position>::max();
+};
+
+/// Of [from, to), at least one sample. Whole chunks have one entry each: n / 4096 steps at most for disjoint stretches.
+Extremes History::Reader::extremes(Position from, Position to)
+{
+    Extremes result;
+    while (from < to) {
+        const std::size_t begin = from % ChunkSize;
+        const auto count = static_cast<std::size_t>(std::min<Position>(to - from, ChunkSize - begin));
+        if (from >= m_history.m_openBegin) {
+            result.include(m_history.m_open->extremes(begin, begin + count));
+        } else {
+            seek(from);
+            result.include(count == ChunkSize ? m_chunk->all() : m_chunk->extremes(begin, begin + count));
+        }
+        from += count;
+    }
     return result;
+}
+
+/// The first position from `from` on whose time isn't before `at`. Few steps where it lies near `guess`.
+History::Position History::Reader::findNear(LineTime at, Position from, Position guess)
+{
+    Position low = from;             // all before are earlier than `at`
+    Position high = m_history.m_end; // none from here on is
+    guess = std::clamp(guess, low, high);
+    if (guess < high && time(guess) < at) {
+        low = guess + 1;
+        for (Position step = 1; low + step < high; step *= 2) {
+            if (time(low + step - 1) >= at) {
+                high = low + step - 1;
+                break;
+            }
+            low += step;
+        }
+    } else {
+        high = guess;
+        for (Position step = 1; low + step <= high; step *= 2) {
+            if (time(high - step) < at) {
+                low = high - step + 1;
+                break;
+            }
+            high -= step;
+        }
+    }
+    while (low < high) {
+        const Position middle = low + (high - low) / 2;
+        if (time(middle) < at)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
 }
 
 History::History(std::size_t capacity) : m_capacity(std::max<std::size_t>(capacity, 1)) { }
 
-void History::addChunk()
+History::History(HistoryMemory &memory, std::size_t slot)
+    : m_capacity(std::numeric_limits<std::size_t>::max())
+    , m_memory(&memory)
+    , m_origin(slot % ChunkSize)
+    , m_begin(m_origin)
+    , m_end(m_origin)
 {
-    if (m_spare) {
-        m_spare->gaps.reset();
-        m_chunks.push_back(std::move(m_spare));
-    } else {
-        m_chunks.push_back(std::make_unique_for_overwrite<Chunk>());
-    }
 }
 
 void History::append(LineTime at, std::int32_t raw)
 {
-    if (!isEmpty() && at < timeOf(m_end - 1))
+    if (!isEmpty() && at < m_open->at[m_end - 1 - m_openBegin])
         return;
+    if (!m_open || m_end - m_openBegin == ChunkSize)
+        openChunk();
     const std::size_t slot = m_end % ChunkSize;
-    if (slot == 0)
-        addChunk();
-    Chunk &chunk = *m_chunks.back();
-    chunk.at[slot] = at;
-    chunk.raw[slot] = raw;
-    if (m_gapPending)
-        chunk.gaps.set(slot);
+    for (std::size_t before = 0; isEmpty() && before < slot; ++before) // no block is without values
+        m_open->put(before, at, raw, false);
+    m_open->put(slot, at, raw, m_gapPending);
     m_gapPending = false;
-
-    const auto put = [slot, raw](Extremes &block, std::size_t blockSize) {
-        if (slot % blockSize == 0)
-            block = {raw, raw};
-        else
-            block.include({raw, raw});
-    };
-    put(chunk.fine[slot / FineSize], FineSize);
-    put(chunk.coarse[slot / CoarseSize], CoarseSize);
-    put(chunk.all, ChunkSize);
     ++m_end;
+    if (size() > m_capacity)
+        dropOldest();
+}
 
-    if (size() <= m_capacity)
+/// What was open is packed, and its memory used again.
+void History::openChunk()
+{
+    if (!m_open) {
+        m_open = std::make_unique<OpenChunk>();
+        m_openCharge = MemoryCharge(m_memory, Detail::Samples, sizeof(OpenChunk) + FixedBytes);
         return;
-    ++m_begin;
-    if (m_begin % ChunkSize == 0) {
-        m_spare = std::move(m_chunks.front());
-        m_chunks.pop_front();
-        ++m_firstChunk;
     }
+    m_packed.emplace_back(*m_open, m_memory);
+    m_openBegin += ChunkSize;
+}
+
+void History::dropOldest()
+{
+    ++m_begin;
+    if (m_packed.empty() || m_begin - m_packedBegin < ChunkSize)
+        return;
+    m_packed.pop_front();
+    m_packedBegin += ChunkSize;
 }
 
 void History::appendGap(LineTime)
@@ -106,13 +175,13 @@ void History::appendGap(LineTime)
 
 History::Sample History::at(std::size_t index) const
 {
-    const Position position = m_begin + index;
-    return {timeOf(position), rawOf(position)};
+    Reader reader(*this);
+    return {reader.time(m_begin + index), reader.raw(m_begin + index)};
 }
 
 bool History::gapBefore(std::size_t index) const
 {
-    return hasGap(m_begin + index);
+    return Reader(*this).hasGap(m_begin + index);
 }
 
 std::size_t History::indexAt(LineTime at) const
@@ -120,57 +189,76 @@ std::size_t History::indexAt(LineTime at) const
     return static_cast<std::size_t>(find(at) - m_begin);
 }
 
+/// Samples arrive evenly, so it can be guessed.
 History::Position History::find(LineTime at) const
 {
-    return findNear(at, m_begin, m_begin + size() / 2);
+    if (isEmpty())
+        return m_end;
+    Reader reader(*this);
+    const LineTime first = reader.time(m_begin);
+    const LineTime last = reader.time(m_end - 1);
+    if (at <= first || at > last)
+        return at <= first ? m_begin : m_end;
+    using Seconds = std::chrono::duration<double>;
+    const double part = (Seconds(at) - Seconds(first)) / (Seconds(last) - Seconds(first));
+    return reader.findNear(at, m_begin, m_begin + static_cast<Position>(part * static_cast<double>(size() - 1)));
 }
 
-/// The first position from `from` on whose time isn't before `at`. Few steps where it lies near `guess`.
-History::Position History::findNear(LineTime at, Position from, Position guess) const
+std::size_t History::slotFor(LineTime at) const
 {
-    Position low = from;   // all before are earlier than `at`
-    Position high = m_end; // none from here on is
-    guess = std::clamp(guess, low, high);
-    if (guess < high && timeOf(guess) < at) {
-        low = guess + 1;
-        for (Position step = 1; low + step < high; step *= 2) {
-            if (timeOf(low + step - 1) >= at) {
-                high = low + step - 1;
-                break;
-            }
-            low += step;
-        }
-    } else {
-        high = guess;
-        for (Position step = 1; low + step <= high; step *= 2) {
-            if (timeOf(high - step) < at) {
-                low = high - step + 1;
-                break;
-            }
-            high -= step;
-        }
-    }
-    while (low < high) {
-        const Position middle = low + (high - low) / 2;
-        if (timeOf(middle) < at)
-            low = middle + 1;
-        else
-            high = middle;
-    }
-    return low;
+    const bool isThere = !isEmpty() && m_open->at[m_end - 1 - m_openBegin] == at;
+    return (isThere ? m_end - 1 : m_end) % ChunkSize;
 }
 
-/// Of [from, to), at least one sample. Whole chunks have one entry each: n / 4096 steps at most for disjoint stretches.
-History::Extremes History::extremes(Position from, Position to) const
+std::optional<LineTime> History::oldest(Detail detail) const
 {
-    Extremes result{rawOf(from), rawOf(from)};
-    while (from < to) {
-        const std::size_t begin = from % ChunkSize;
-        const auto count = static_cast<std::size_t>(std::min<Position>(to - from, ChunkSize - begin));
-        result.include(chunkOf(from).extremes(begin, begin + count));
-        from += count;
+    if (detail != Detail::Samples)
+        return m_folded.oldest(detail);
+    return m_packed.empty() ? std::nullopt : std::optional(m_packed.front().at(0));
+}
+
+void History::foldOldest(Detail detail)
+{
+    if (detail != Detail::Samples)
+        return m_folded.foldOldest(detail, m_memory);
+    if (m_packed.empty())
+        return;
+    m_folded.add(std::move(m_packed.front()), m_memory);
+    m_packed.pop_front();
+    m_packedBegin += ChunkSize;
+    m_begin = m_packedBegin;
+}
+
+bool History::isFolded(LineTime from, LineTime to) const
+{
+    return !m_folded.isEmpty() && to > m_folded.first() && from < foldedEnd();
+}
+
+/// Up to where a line from the last folded sample goes.
+LineTime History::foldedEnd() const
+{
+    Reader reader(*this);
+    return reader.hasGap(m_begin) ? m_folded.last() + LineTime(1) : reader.time(m_begin);
+}
+
+void History::foldedColumns(LineTime from, LineTime to, std::span<Column> columns) const
+{
+    if (!isFolded(from, to))
+        return;
+    const LineTime end = foldedEnd();
+    const Column *before = nullptr;
+    LineTime start = from;
+    for (std::size_t i = 0; i < columns.size() && start < end; ++i) {
+        const LineTime stop = columnStart(from, to, i + 1, columns.size());
+        const auto [extremes, gapBefore] = m_folded.stretch(start, stop, end);
+        start = stop;
+        if (extremes.isEmpty())
+            continue;
+        const std::int32_t value = before ? std::clamp(before->last, extremes.minimum, extremes.maximum)
+                                          : extremes.minimum + static_cast<std::int32_t>(extremes.span() / 2);
+        columns[i] = {extremes.minimum, extremes.maximum, value, value, false, gapBefore};
+        before = &columns[i];
     }
-    return result;
 }
 
 void History::columns(LineTime from, LineTime to, std::span<Column> columns) const
@@ -178,15 +266,24 @@ void History::columns(LineTime from, LineTime to, std::span<Column> columns) con
     std::ranges::fill(columns, Column{});
     if (columns.empty() || isEmpty() || to <= from)
         return;
+    foldedColumns(from, to, columns);
+    Reader reader(*this);
     Position begin = find(from);
     Position count = 0; // samples arrive evenly: the next column holds about as many as this one
     for (std::size_t i = 0; i < columns.size() && begin < m_end; ++i) {
-        const Position end = findNear(columnStart(from, to, i + 1, columns.size()), begin, begin + count);
+        const Position end = reader.findNear(columnStart(from, to, i + 1, columns.size()), begin, begin + count);
         count = end - begin;
         if (count == 0)
             continue;
-        const Extremes found = extremes(begin, end);
-        columns[i] = {found.minimum, found.maximum, rawOf(begin), rawOf(end - 1), false, hasGap(begin)};
+        Extremes found = reader.extremes(begin, end);
+        Column &column = columns[i];
+        const std::int32_t last = reader.raw(end - 1);
+        if (column.isEmpty) {
+            column = {found.minimum, found.maximum, reader.raw(begin), last, false, reader.hasGap(begin)};
+        } else { // begins with what was folded
+            found.include({column.minimum, column.maximum});
+            column = {found.minimum, found.maximum, column.first, last, false, column.gapBefore};
+        }
         begin = end;
     }
 }
@@ -195,15 +292,19 @@ bool History::range(LineTime from, LineTime to, std::int32_t &minimum, std::int3
 {
     if (isEmpty() || to <= from)
         return false;
+    Extremes found;
+    if (isFolded(from, to))
+        found = m_folded.stretch(from, to, foldedEnd()).extremes;
+    Reader reader(*this);
     Position begin = find(from);
     Position end = find(to);
-    if (end > m_begin && end < m_end && !hasGap(end))
+    if (end > m_begin && end < m_end && !reader.hasGap(end))
         ++end;
-    if (begin > m_begin && begin < m_end && !hasGap(begin))
+    if (begin > m_begin && begin < m_end && !reader.hasGap(begin))
         --begin;
-    if (begin >= end)
+    found.include(reader.extremes(begin, end));
+    if (found.isEmpty())
         return false;
-    const Extremes found = extremes(begin, end);
     minimum = found.minimum;
     maximum = found.maximum;
     return true;

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/bus/line.h"
-
-#include <array>
-#include <bitset>
-#include <cstdint>
-#include <deque>
-#include <memory>
-#include <span>
+#include "core/session/history/foldedhistory.h"
 
 namespace dynascope {
 
 /// The raw values one field had (signed where a bit of it is the direction), with a pyramid of minima and maxima so that
-/// any stretch can be drawn in as many columns as the screen has. Append-only; the oldest go when it is full. Any one
-/// thread.
+/// any stretch can be drawn in as many columns as the screen has. Append-only. Any one thread.
+///
+/// The newest samples lie as they came; behind them, in chunks of 4096, they are packed, and nothing of them is lost.
+/// Where memory runs out (`Histories`), the oldest are folded: at(), indexAt(), gapBefore() and size() then know only the
+/// samples that are left, index 0 being the oldest of those, while columns() and range() go on with the extremes of
+/// blocks, of 16 samples at first, further back of 256 and 4096. Nothing between two pixels is lost by that, but it may
+/// show as much too early or too late as its block is long.
 class History
 {
 public:
@@ -27,14 +25,17 @@ public:
     /// What falls into one pixel column.
     struct Column {
         std::int32_t minimum = 0, maximum = 0;
-        std::int32_t first = 0, last = 0;
+        std::int32_t first = 0, last = 0; ///< where samples were folded: the way of least movement
         bool isEmpty = true;
         bool gapBefore = false; ///< nothing was known for a while before this column: don't draw a line to it
 
         friend bool operator==(const Column &, const Column &) = default;
     };
 
-    explicit History(std::size_t capacity = DefaultCapacity);
+    explicit History(std::size_t capacity = DefaultCapacity); ///< samples; more than those go, and leave nothing
+    /// Without a limit of its own. The first sample takes the place `slot` of its chunk: where fields that come in the
+    /// same replies stand alike, they share their times.
+    explicit History(HistoryMemory &memory, std::size_t slot = 0);
 
     void append(LineTime at, std::int32_t raw); ///< `at` not before the last one; an earlier one is dropped
     void appendGap(LineTime at);                ///< the value was asked for and did not come
@@ -45,7 +46,7 @@ public:
     Sample last() const { return at(size() - 1); }
     bool gapBefore(std::size_t index) const; ///< nothing was known between this sample and the one before
     /// How many there ever were, those that had to go included: tells cheaply whether something new has come.
-    std::uint64_t appended() const { return m_end; }
+    std::uint64_t appended() const { return m_end - m_origin; }
 
     /// Splits [from, to) into `columns.size()` equal columns and fills them. O(columns · log n).
     void columns(LineTime from, LineTime to, std::span<Column> columns) const;
@@ -54,54 +55,38 @@ public:
     /// Index of the first sample at or after `at`; size() where there is none.
     std::size_t indexAt(LineTime at) const;
 
+    /// Is something of [from, to) left that only columns() and range() know?
+    bool isFolded(LineTime from, LineTime to) const;
+    std::size_t slotFor(LineTime at) const; ///< of a sample that comes in the same reply as one of this history
+    /// When the oldest begins of which so much is left; nothing where there is none that could be folded.
+    std::optional<LineTime> oldest(Detail detail) const;
+    void foldOldest(Detail detail); ///< leaves less of that
+
     static constexpr std::size_t DefaultCapacity = 2'000'000;
 
 private:
-    // Samples lie in chunks that are never moved, so appending costs the same at any size. Positions count all samples
-    // ever appended; blocks of the pyramid are aligned to them and stay where they are when old samples go.
+    // Positions count all samples ever appended; blocks of the pyramid are aligned to them and stay where they are when
+    // old samples go.
     using Position = std::uint64_t;
-    static constexpr std::size_t Fan = 16;
-    static constexpr std::size_t FineSize = Fan;
-    static constexpr std::size_t CoarseSize = Fan * Fan;
-    static constexpr std::size_t ChunkSize = Fan * Fan * Fan;
+    class Reader;
 
-    struct Extremes {
-        std::int32_t minimum, maximum;
-        void include(const Extremes &other)
-        {
-            minimum = other.minimum < minimum ? other.minimum : minimum;
-            maximum = other.maximum > maximum ? other.maximum : maximum;
-        }
-    };
-    struct Chunk {
-        std::array<LineTime, ChunkSize> at;
-        std::array<std::int32_t, ChunkSize> raw;
-        std::array<Extremes, ChunkSize / FineSize> fine;
-        std::array<Extremes, ChunkSize / CoarseSize> coarse;
-        Extremes all;
-        std::bitset<ChunkSize> gaps; ///< bit set: gap before this sample
-
-        Extremes extremes(std::size_t from, std::size_t to) const;
-    };
-
-    const Chunk &chunkOf(Position position) const
-    {
-        return *m_chunks[static_cast<std::size_t>(position / ChunkSize - m_firstChunk)];
-    }
-    LineTime timeOf(Position position) const { return chunkOf(position).at[position % ChunkSize]; }
-    std::int32_t rawOf(Position position) const { return chunkOf(position).raw[position % ChunkSize]; }
-    bool hasGap(Position position) const { return chunkOf(position).gaps[position % ChunkSize]; }
+    void openChunk();
+    void dropOldest();
     Position find(LineTime at) const;
-    Position findNear(LineTime at, Position from, Position guess) const;
-    Extremes extremes(Position from, Position to) const;
-    void addChunk();
+    LineTime foldedEnd() const;
+    void foldedColumns(LineTime from, LineTime to, std::span<Column> columns) const;
 
     std::size_t m_capacity;
-    std::deque<std::unique_ptr<Chunk>> m_chunks; ///< the first one holds m_begin
-    std::unique_ptr<Chunk> m_spare;              ///< the last one that was emptied, to be filled again
+    HistoryMemory *m_memory = nullptr;
+    FoldedHistory m_folded;
+    std::deque<PackedChunk> m_packed;
+    std::unique_ptr<OpenChunk> m_open; ///< behind those; what is full stays open until there is another sample
+    MemoryCharge m_openCharge;
+    Position m_origin = 0;
     Position m_begin = 0;
     Position m_end = 0;
-    Position m_firstChunk = 0; ///< m_begin / ChunkSize
+    Position m_packedBegin = 0; ///< of the first packed chunk
+    Position m_openBegin = 0;
     bool m_gapPending = false;
 };
 

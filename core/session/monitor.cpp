@@ -48,8 +48,8 @@ void Monitor::follow(LineSession *line)
 void Monitor::drop(Device *device)
 {
     // A trace keeps its curve; what nobody watches any more has none.
-    std::erase_if(m_histories, [this, device](const auto &entry) {
-        return entry.first.device == device->key() && !m_watches.contains(entry.first);
+    m_histories.erase([this, device](const Watch &watch) {
+        return watch.device == device->key() && !m_watches.contains(watch);
     });
     std::erase_if(m_watches, [device](const Watch &watch) { return watch.device == device->key(); });
     std::erase_if(m_rates, [device](const auto &entry) { return entry.first.device == device->key(); });
@@ -62,22 +62,15 @@ void Monitor::watch(const Watch &watch)
 {
     if (!m_watches.insert(watch).second)
         return;
-    markGap(watch); // where it was watched before: nobody knows what was in between
+    m_histories.markGap(watch); // where it was watched before: nobody knows what was in between
     replanSoon();
     emit watchesChanged();
-}
-
-void Monitor::markGap(const Watch &watch)
-{
-    const auto at = m_histories.find(watch);
-    if (at != m_histories.end() && !at->second.isEmpty())
-        at->second.appendGap(at->second.last().at);
 }
 
 void Monitor::unwatch(const Watch &watch)
 {
     if (!m_session.device(watch.device))
-        m_histories.erase(watch);
+        m_histories.erase([&watch](const Watch &other) { return other == watch; });
     if (m_watches.erase(watch) == 0)
         return;
     replanSoon();
@@ -125,17 +118,10 @@ void Monitor::setSigns(DeviceKey device, const std::set<int> &fields)
     replanSoon();
 }
 
-const History *Monitor::history(const Watch &watch) const
-{
-    const auto at = m_histories.find(watch);
-    return at == m_histories.end() ? nullptr : &at->second;
-}
-
 void Monitor::clear()
 {
-    std::erase_if(m_histories, [this](const auto &entry) { return !m_watches.contains(entry.first); });
-    for (auto &entry : m_histories)
-        entry.second = History();
+    m_histories.erase([this](const Watch &watch) { return !m_watches.contains(watch); });
+    m_histories.clear();
 }
 
 void Monitor::setPaused(bool paused)
@@ -176,7 +162,7 @@ void Monitor::replan()
                 if (const double hertz = rate(*at); hertz > 0)
                     watches.rates[at->field] = hertz;
                 if (line->state() != BusThread::State::Open || device->state() != Device::State::Present)
-                    markGap(*at);
+                    m_histories.markGap(*at);
             }
             devices.push_back(std::move(watches));
         }
@@ -205,11 +191,12 @@ void Monitor::record(const Batch &batch)
             const Field &field = device->table().fields()[static_cast<std::size_t>(at->field)];
             if (value.data.empty()) {
                 if (field.address >= value.address && field.address < value.address + value.length)
-                    m_histories[*at].appendGap(value.at);
+                    m_histories.appendGap(*at, value.at);
             } else if (field.address >= value.address && field.end() <= end) {
                 const auto offset = static_cast<std::size_t>(field.address - value.address);
                 const std::int64_t raw = rawFromBytes(field, ByteView(value.data).subspan(offset));
-                m_histories[*at].append(value.at, static_cast<std::int32_t>(countedBy(*device, at->field, raw)));
+                m_histories.append(
+                    *at, value.at, static_cast<std::int32_t>(countedBy(*device, at->field, raw)));
             }
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/history.h"
+#include "core/session/histories.h"
 #include "core/session/session.h"
 
 #include <map>
@@ -9,18 +9,10 @@
 
 namespace dynascope {
 
-/// A field of a device that is read all the time.
-struct Watch {
-    DeviceKey device = 0;
-    int field = 0; ///< index in its table
-
-    friend auto operator<=>(const Watch &, const Watch &) = default;
-};
-
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///
-/// Watched fields at full rate, or as often as is wanted; RAM of the selected device at 10 Hz; Torque Enable, Hardware Error Status, temperature
-/// and voltage of all devices at 1 Hz; what tells of a restart each 9 s.
+/// Watched fields at full rate, or as often as is wanted; RAM of the selected device at 10 Hz; Torque Enable, Hardware
+/// Error Status, temperature and voltage of all devices at 1 Hz; what tells of a restart each 9 s.
 class Monitor : public QObject
 {
     Q_OBJECT
@@ -43,8 +35,10 @@ public:
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
-    const History *history(const Watch &watch) const;
+    const History *history(const Watch &watch) const { return m_histories.find(watch); }
     void clear(); ///< all histories
+    const Histories &histories() const { return m_histories; }
+    void setHistoryBudget(std::size_t bytes) { m_histories.setBudget(bytes); } ///< of all of them
 
     bool mayReadFast() const { return m_mayReadFast; }
     void setMayReadFast(bool may); ///< fast reads of those who know them; so at first
@@ -61,12 +55,11 @@ private:
     void replanSoon();
     void replan();
     void record(const Batch &batch);
-    void markGap(const Watch &watch);
 
     Session &m_session;
     std::set<Watch> m_watches;
     std::map<Watch, double> m_rates; ///< of those not at full rate; stay while they aren't watched
-    std::map<Watch, History> m_histories;
+    Histories m_histories;
     std::vector<DeviceKey> m_selected;
     std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back

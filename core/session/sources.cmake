@@ -19,8 +19,16 @@ target_sources(dynascope_core PRIVATE
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
     session/groupwrite.cpp session/groupwrite.h
+    session/histories.cpp session/histories.h
     session/history.cpp session/history.h
     session/indirectpacking.cpp session/indirectpacking.h
+    session/history/bits.h
+    session/history/extremes.cpp session/history/extremes.h
+    session/history/foldedhistory.cpp session/history/foldedhistory.h
+    session/history/historymemory.cpp session/history/historymemory.h
+    session/history/openchunk.h
+    session/history/packedchunk.cpp session/history/packedchunk.h
+    session/history/packedtimes.cpp session/history/packedtimes.h
     session/journal/journal.cpp session/journal/journal.h
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h
@@ -71,5 +79,6 @@ target_sources(dynascope_core PRIVATE
     session/settingscommands.cpp session/settingscommands.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
+    session/watch.h
     session/watchplan.cpp session/watchplan.h
 )

@@ -81,7 +81,8 @@ TraceImage::Painted::Painted(const Item &item, const TimeView &view, const Paint
     mark = HistoryMark::of(*history);
     // On the border between the two ways what was drawn stays: a change means to paint all anew.
     const auto samples = static_cast<double>(history->indexAt(view.shownTo()) - history->indexAt(view.from()));
-    asLines = samples <= view.columns * (before && before->asLines ? 1.25 : 1.0) * LineDensity;
+    asLines = samples <= view.columns * (before && before->asLines ? 1.25 : 1.0) * LineDensity
+        && !history->isFolded(view.from(), view.shownTo());
     hasDots = samples * (before && before->hasDots ? 0.8 : 1.0) * DotSpacing <= view.columns;
 }
 
