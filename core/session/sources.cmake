@@ -20,6 +20,7 @@ target_sources(dynascope_core PRIVATE
     session/deviceplace.cpp session/deviceplace.h
     session/groupwrite.cpp session/groupwrite.h
     session/history.cpp session/history.h
+    session/historymark.h
     session/journal/journal.cpp session/journal/journal.h
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h
@@ -68,6 +69,7 @@ target_sources(dynascope_core PRIVATE
     session/settings/settingsorder.cpp session/settings/settingsorder.h
     session/settings/settingsplan.cpp session/settings/settingsplan.h
     session/settingscommands.cpp session/settingscommands.h
+    session/spanmeasure.cpp session/spanmeasure.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/volatilespan.cpp session/volatilespan.h
     session/watchplan.cpp session/watchplan.h

@@ -66,16 +66,11 @@ QString labelText(double value, int decimals)
     return isZero ? QString::number(0.0, 'f', decimals) : text;
 }
 
-qreal columnWidth(const QFont &font)
-{
-    return QFontMetricsF(font).horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
-}
-
 /// As many as leave the traces room; one always.
 int rightColumns(const ChartFrame::Content &content)
 {
     constexpr int LeastPlot = 110;
-    const qreal column = columnWidth(content.font);
+    const qreal column = ChartFrame::columnWidth(content.font);
     const qreal free = content.size.width() - content.room.left * column - LeastPlot;
     return std::min(content.room.right, std::max(1, static_cast<int>(free / column)));
 }
@@ -108,6 +103,11 @@ ChartFrame::ChartFrame() : m_scene(std::make_unique<QGraphicsScene>()), m_chart(
 }
 
 ChartFrame::~ChartFrame() = default;
+
+qreal ChartFrame::columnWidth(const QFont &font)
+{
+    return QFontMetricsF(font).horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
+}
 
 QRectF ChartFrame::plotArea(const Content &content)
 {

@@ -65,6 +65,7 @@ public:
     /// Inside the axes, on whole device pixels. Depends on size, font and where there is room for labels, not on
     /// ranges, so it doesn't jump while values do.
     static QRectF plotArea(const Content &content);
+    static qreal columnWidth(const QFont &font); ///< of the labels of one value axis
 
 private:
     void applyColors(const Content &content);

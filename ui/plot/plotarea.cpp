@@ -48,6 +48,8 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
     connect(&m_values, &QTimer::timeout, this, [this] {
         for (PlotPanel *panel : m_panels)
             panel->model().refreshValues();
+        for (PlotPanel *panel : m_panels)
+            panel->showFigures();
     });
     // A device that goes takes its histories along: the charts must let go of them at once.
     connect(&monitor, &Monitor::watchesChanged, this, &PlotArea::refreshAll);
@@ -77,6 +79,7 @@ void PlotArea::connectBar()
     connect(m_bar, &PlotBar::pictureRequested, this, [this] { m_saver->askForPicture(m_splitter->grab()); });
     connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
+    connect(m_bar, &PlotBar::cursorsChanged, this, &PlotArea::setCursorsOn);
 }
 
 std::vector<QAction *> PlotArea::saveActions() const
@@ -90,9 +93,12 @@ PlotPanel *PlotArea::addPanel()
     m_splitter->addWidget(panel);
     m_panels.push_back(panel);
     m_present = panel;
-    panel->chart().setAutoscale(m_panels.front()->chart().isAutoscale());
     panel->model().setUnits(m_units);
+    panel->setCursors(m_cursors);
+    panel->setLive(m_window.isLive());
     connect(panel, &PlotPanel::activated, this, [this, panel] { m_present = panel; });
+    connect(panel, &PlotPanel::liveRequested, this, [this] { setLive(true); });
+    connect(panel, &PlotPanel::ownTimeChanged, this, &PlotArea::showNewest);
     connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
     connect(panel, &PlotPanel::removeRequested, this,
         [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
@@ -110,16 +116,28 @@ PlotPanel *PlotArea::addPanel()
 void PlotArea::connectChart(PlotPanel *panel)
 {
     PlotChart *chart = &panel->chart();
-    connect(chart, &PlotChart::spanStepped, m_bar, &PlotBar::stepSpan);
-    connect(chart, &PlotChart::zoomed, this, [this](double factor, LineTime around) {
-        m_window.zoom(factor, around);
+    connect(chart, &PlotChart::spanStepped, this, [this, panel](int steps) {
+        if (!panel->hasOwnTime())
+            return m_bar->stepSpan(steps);
+        panel->ownTime().setSpan(SpanBox::stepped(panel->ownTime().span(), steps));
         showNewest();
     });
-    connect(chart, &PlotChart::panned, this, [this](LineTime by) {
-        m_window.pan(by);
+    connect(chart, &PlotChart::pauseRequested, this, [this] { setLive(false); });
+    connect(chart, &PlotChart::zoomed, this, [this, panel](double factor, LineTime around) {
+        windowOf(panel).zoom(factor, around);
         showNewest();
     });
-    connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::setAutoscale);
+    connect(chart, &PlotChart::panned, this, [this, panel](LineTime by) {
+        windowOf(panel).pan(by);
+        showNewest();
+    });
+    connect(chart, &PlotChart::timesChosen, this, [this, panel](LineTime from, LineTime to) {
+        windowOf(panel).show(from, to);
+        showNewest();
+    });
+    connect(chart, &PlotChart::cursorMoved, this, &PlotArea::moveCursor);
+    connect(chart, &PlotChart::cursorsToggled, this, [this] { setCursorsOn(!m_cursors.isOn); });
+    connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::showAutoscale);
     connect(chart, &PlotChart::fitRequested, this, &PlotArea::fit);
 }
 
@@ -183,6 +201,7 @@ void PlotArea::onTracesChanged()
     if (traces().empty())
         setLive(true);
     refreshAll();
+    showCursors();
     emit tracesChanged();
 }
 
@@ -220,6 +239,7 @@ void PlotArea::hideEvent(QHideEvent *event)
 /// Paints only where something new has come; what is paused stands still anyway.
 void PlotArea::onFrame()
 {
+    measure();
     if (!m_window.isLive())
         return;
     std::uint64_t samples = 0;
@@ -246,24 +266,43 @@ void PlotArea::refreshAll()
 /// All panels end at the same moment, so that what stands above each other happened together.
 void PlotArea::showNewest()
 {
+    const LineTime at = newest();
+    for (PlotPanel *panel : m_panels)
+        panel->setNewest(at);
+}
+
+LineTime PlotArea::newest() const
+{
     LineTime newest{};
     for (const PlotPanel *panel : m_panels)
         newest = std::max(newest, panel->newest());
+    return newest;
+}
+
+TimeWindow &PlotArea::windowOf(PlotPanel *panel)
+{
+    return panel->hasOwnTime() ? panel->ownTime() : m_window;
+}
+
+void PlotArea::pauseAt(LineTime newest)
+{
+    m_window.pause(newest);
     for (PlotPanel *panel : m_panels)
-        panel->chart().setNewest(newest);
+        panel->ownTime().pause(newest);
 }
 
 void PlotArea::setLive(bool live)
 {
     if (live) {
         m_window.setLive();
+        for (PlotPanel *panel : m_panels)
+            panel->ownTime().setLive();
     } else {
-        LineTime newest{};
-        for (const PlotPanel *panel : m_panels)
-            newest = std::max(newest, panel->newest());
-        m_window.pause(newest);
+        pauseAt(newest());
     }
     m_bar->setLive(live);
+    for (PlotPanel *panel : m_panels)
+        panel->setLive(live);
     refreshAll();
 }
 
@@ -272,6 +311,12 @@ void PlotArea::setAutoscale(bool on)
     m_bar->setAutoscale(on);
     for (PlotPanel *panel : m_panels)
         panel->chart().setAutoscale(on);
+}
+
+void PlotArea::showAutoscale()
+{
+    m_bar->setAutoscale(
+        std::ranges::all_of(m_panels, [](const PlotPanel *panel) { return panel->chart().isAutoscale(); }));
 }
 
 void PlotArea::setUnits(const UnitPreferences &units)
@@ -314,63 +359,6 @@ void PlotArea::saveCsvFile()
         return all;
     };
     m_saver->askForCsv(traces, view.from(), view.to());
-}
-
-QByteArray PlotArea::saveState() const
-{
-    PlotState state;
-    state.spanSeconds = m_bar->span();
-    state.autoscale = m_panels.front()->chart().isAutoscale();
-    for (std::size_t i = 0; i < m_panels.size(); ++i) {
-        const TraceModel &model = m_panels[i]->model();
-        std::vector<PlotState::Trace> traces;
-        for (int row = 0; row < model.rowCount(); ++row) {
-            const Device *device = m_session.device(model.watch(row).device);
-            if (!device || !device->line())
-                continue;
-            const Field &field = device->table().fields()[static_cast<std::size_t>(model.watch(row).field)];
-            traces.push_back({device->line()->name(), device->table().modelNumber(), device->id(), field.name,
-                model.colorIndex(row), model.isVisible(row)});
-        }
-        if (i < m_waiting.size())
-            traces.insert(traces.end(), m_waiting[i].begin(), m_waiting[i].end());
-        state.panels.push_back(std::move(traces));
-    }
-    return state.toBytes();
-}
-
-void PlotArea::restoreState(const QByteArray &bytes)
-{
-    const std::optional<PlotState> state = PlotState::fromBytes(bytes);
-    if (!state)
-        return;
-    m_bar->setSpan(state->spanSeconds);
-    setAutoscale(state->autoscale);
-    while (m_panels.size() < state->panels.size())
-        addPanel();
-    m_present = m_panels.front();
-    m_waiting = state->panels;
-    for (Device *device : m_session.devices())
-        restoreTraces(device);
-}
-
-void PlotArea::restoreTraces(Device *device)
-{
-    for (std::size_t i = 0; i < std::min(m_waiting.size(), m_panels.size()); ++i) {
-        std::erase_if(m_waiting[i], [this, i, device](const PlotState::Trace &trace) {
-            if (!trace.fits(*device))
-                return false;
-            const Watch watch{device->key(), device->table().indexOf(trace.field)};
-            addTo(m_panels[i], watch);
-            TraceModel &model = m_panels[i]->model();
-            const int row = model.indexOf(watch);
-            if (row >= 0) {
-                model.setColorIndex(row, trace.color);
-                model.setVisible(row, trace.visible);
-            }
-            return true;
-        });
-    }
 }
 
 } // namespace dynascope

@@ -5,6 +5,7 @@
 #include "core/table/units.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
+#include "ui/plot/plotcursors.h"
 #include "ui/plot/plotstate.h"
 #include "ui/plot/timewindow.h"
 
@@ -41,6 +42,8 @@ public:
     const TimeWindow &timeWindow() const { return m_window; }
     void setLive(bool live);
     void setAutoscale(bool on);
+    void setCursorsOn(bool on);
+    const PlotCursors &cursors() const { return m_cursors; }
     void setUnits(const UnitPreferences &units); ///< axes, readouts, lists, and what is saved
 
     std::vector<QAction *> saveActions() const; ///< CSV and picture, for a menu
@@ -60,12 +63,19 @@ protected:
 private:
     void connectBar();
     void connectChart(PlotPanel *panel);
+    TimeWindow &windowOf(PlotPanel *panel);
+    void pauseAt(LineTime newest);
+    LineTime newest() const;
     void addTo(PlotPanel *panel, const Watch &watch);
     void removeFrom(PlotPanel *panel, const std::vector<Watch> &watches);
     void onTracesChanged();
     void onFrame();
     void showNewest();
     void refreshAll();
+    void showAutoscale();
+    void showCursors();
+    void moveCursor(int which, LineTime at);
+    void measure();
     void clear();
     void fit();
     void saveCsvFile();
@@ -80,6 +90,7 @@ private:
     PlotSaver *m_saver;
     std::vector<PlotPanel *> m_panels; ///< the splitter's
     PlotPanel *m_present = nullptr;    ///< where new traces go
+    PlotCursors m_cursors;
     QTimer m_frames;
     QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;

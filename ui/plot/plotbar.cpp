@@ -34,16 +34,23 @@ SpanBox::SpanBox(QWidget *parent) : QSpinBox(parent)
     setAccessibleName(tr("Time span"));
 }
 
-void SpanBox::stepBy(int steps)
+std::chrono::seconds SpanBox::stepped(std::chrono::nanoseconds span, int steps)
 {
+    int value = inSeconds(span);
     for (; steps > 0; --steps) {
-        const auto *next = std::ranges::upper_bound(RoundSpans, value());
-        setValue(next == RoundSpans.end() ? maximum() : *next);
+        const auto *next = std::ranges::upper_bound(RoundSpans, value);
+        value = next == RoundSpans.end() ? RoundSpans.back() : *next;
     }
     for (; steps < 0; ++steps) {
-        const auto *next = std::ranges::lower_bound(RoundSpans, value());
-        setValue(next == RoundSpans.begin() ? minimum() : *(next - 1));
+        const auto *next = std::ranges::lower_bound(RoundSpans, value);
+        value = next == RoundSpans.begin() ? RoundSpans.front() : *(next - 1);
     }
+    return std::chrono::seconds(value);
+}
+
+void SpanBox::stepBy(int steps)
+{
+    setValue(static_cast<int>(stepped(std::chrono::seconds(value()), steps).count()));
 }
 
 /// More digits than fit are taken and brought into range at the end: refused one by one they would make 70 of 700.
@@ -78,7 +85,7 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
     setIconSize({16, 16});
     setMovable(false);
     m_pause =
-        add(QStringLiteral("pause"), tr("Pause"), tr("Hold the plots still; drag and wheel then move and zoom them"));
+        add(QStringLiteral("pause"), tr("Pause"), tr("Hold the plots still; drag and wheel then move and zoom them (Shift+drag: a box, also while live)"));
     m_pause->setCheckable(true);
     connect(m_pause, &QAction::toggled, this, [this](bool paused) {
         showLive(!paused);
@@ -87,10 +94,15 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
     addWidget(m_span);
     connect(m_span, &QSpinBox::valueChanged, this, &PlotBar::spanChanged);
     m_autoscale = add(QStringLiteral("fit"), tr("Autoscale"),
-        tr("Let the value axes follow what is seen (Ctrl+wheel zooms by hand)"));
+        tr("Let the value axes follow what is seen (the wheel over an axis, or Ctrl+wheel, zooms by hand)"));
     m_autoscale->setCheckable(true);
     m_autoscale->setChecked(true);
     connect(m_autoscale, &QAction::toggled, this, &PlotBar::autoscaleChanged);
+    m_cursors = add(QStringLiteral("cursor"), tr("Cursors"),
+        tr("Measure between two cursors: drag them, or place them in a plot with the keys A and B; "
+           "Shift+arrows move the last one, C hides them"));
+    m_cursors->setCheckable(true);
+    connect(m_cursors, &QAction::toggled, this, &PlotBar::cursorsChanged);
     addSeparator();
     QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
     connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
@@ -109,7 +121,7 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
         add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
     m_save = {csv, picture};
-    m_needTraces = {m_pause, clear, csv, picture};
+    m_needTraces = {m_pause, m_cursors, clear, csv, picture};
     setHasTraces(false);
 }
 
@@ -125,7 +137,7 @@ void PlotBar::showLive(bool live)
 {
     m_pause->setIcon(icon(live ? QStringLiteral("pause") : QStringLiteral("play")));
     m_pause->setText(live ? tr("Pause") : tr("Live"));
-    m_pause->setToolTip(live ? tr("Hold the plots still; drag and wheel then move and zoom them")
+    m_pause->setToolTip(live ? tr("Hold the plots still; drag and wheel then move and zoom them (Shift+drag: a box, also while live)")
                              : tr("Follow the newest values again"));
 }
 
@@ -140,6 +152,12 @@ void PlotBar::setAutoscale(bool on)
 {
     const QSignalBlocker blocker(m_autoscale);
     m_autoscale->setChecked(on);
+}
+
+void PlotBar::setCursors(bool on)
+{
+    const QSignalBlocker blocker(m_cursors);
+    m_cursors->setChecked(on);
 }
 
 void PlotBar::setSpan(int seconds)

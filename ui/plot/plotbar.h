@@ -4,6 +4,7 @@
 #include <QSpinBox>
 #include <QToolBar>
 
+#include <chrono>
 #include <vector>
 
 namespace dynascope {
@@ -17,6 +18,8 @@ public:
     explicit SpanBox(QWidget *parent = nullptr);
 
     void stepBy(int steps) override;
+    /// The round span so many steps away.
+    static std::chrono::seconds stepped(std::chrono::nanoseconds span, int steps);
     QValidator::State validate(QString &text, int &position) const override;
     void fixup(QString &text) const override;
 
@@ -38,6 +41,7 @@ public:
     int span() const { return m_span->value(); }
     void setSpan(int seconds);
     void stepSpan(int steps) { m_span->stepBy(steps); }
+    void setCursors(bool on);
     void setHasTraces(bool has);
     const std::vector<QAction *> &saveActions() const { return m_save; }
 
@@ -45,6 +49,7 @@ signals:
     void liveChanged(bool live);
     void spanChanged(int seconds);
     void autoscaleChanged(bool on);
+    void cursorsChanged(bool on);
     void clearRequested();
     void csvRequested();
     void pictureRequested();
@@ -57,6 +62,7 @@ private:
     SpanBox *m_span;
     QAction *m_pause;
     QAction *m_autoscale;
+    QAction *m_cursors;
     std::vector<QAction *> m_save;
     QList<QAction *> m_needTraces;
 };

@@ -5,7 +5,7 @@
 #include "ui/common/theme.h"
 #include "ui/plot/plotreadout.h"
 
-#include <QKeyEvent>
+#include <QEvent>
 #include <QPainter>
 
 #include <algorithm>
@@ -16,8 +16,6 @@ namespace dynascope {
 namespace {
 
 constexpr int StepHeight = 44; ///< pixels between value labels, at least
-constexpr int WheelStep = 120;
-constexpr double WheelZoom = 1.25;
 
 double seconds(LineTime time)
 {
@@ -26,7 +24,7 @@ double seconds(LineTime time)
 
 } // namespace
 
-PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent), m_window(window)
+PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent), m_window(&window)
 {
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
@@ -34,6 +32,12 @@ PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent
 }
 
 PlotChart::~PlotChart() = default;
+
+void PlotChart::setWindow(const TimeWindow &window)
+{
+    m_window = &window;
+    update();
+}
 
 void PlotChart::setTraces(std::vector<TraceData> traces)
 {
@@ -58,11 +62,21 @@ void PlotChart::setNewest(LineTime newest)
 
 void PlotChart::setAutoscale(bool on)
 {
-    if (on == m_autoscale)
+    m_scales.setByHand(!on);
+    update();
+}
+
+void PlotChart::setAxisRange(const QString &unit, double minimum, double maximum)
+{
+    m_scales.setRange(unit, minimum, maximum);
+    update();
+}
+
+void PlotChart::setCursors(const PlotCursors &cursors)
+{
+    if (cursors == m_cursors)
         return;
-    m_autoscale = on;
-    if (on)
-        m_scales.refit();
+    m_cursors = cursors;
     update();
 }
 
@@ -111,7 +125,7 @@ QRectF PlotChart::plotArea() const
 
 TimeView PlotChart::view() const
 {
-    return m_window.view(static_cast<int>(std::lround(plotArea().width() * devicePixelRatioF())), m_newest);
+    return m_window->view(static_cast<int>(std::lround(plotArea().width() * devicePixelRatioF())), m_newest);
 }
 
 ChartFrame::Content PlotChart::frameContent(const TimeView &view) const
@@ -160,13 +174,23 @@ void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
         paintIcon(&painter, icon, QStringLiteral("chart"), color);
 }
 
+void PlotChart::paintBox(QPainter &painter, const QRectF &area) const
+{
+    const QColor line = colors(palette()).accent;
+    QColor fill = line;
+    fill.setAlphaF(0.12F);
+    painter.setPen(QPen(line, 1));
+    painter.setBrush(fill);
+    painter.drawRect(QRectF(m_dragFrom, m_dragLast).normalized().intersected(area));
+    painter.setBrush(Qt::NoBrush);
+}
+
 void PlotChart::paintEvent(QPaintEvent *)
 {
     const QRectF area = plotArea();
     const TimeView now = view();
     m_scales.setMostSteps(std::max(2, static_cast<int>(area.height() / StepHeight)));
-    if (m_autoscale)
-        m_scales.fit(m_traces, now, m_newest);
+    m_scales.fit(m_traces, now, m_newest);
     QPainter painter(this);
     painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
     if (m_traces.empty()) {
@@ -175,131 +199,16 @@ void PlotChart::paintEvent(QPaintEvent *)
     } else {
         paintTraces(painter, now, area);
     }
-    if (m_cursor && !m_dragFrom && area.contains(*m_cursor))
-        PlotReadout{m_traces, m_scales, now, area, m_cursor->x(), palette()}.paint(painter);
+    m_cursors.paint(painter, now, area, palette());
+    if (m_drag == Drag::Box)
+        paintBox(painter, area);
+    if (m_mouse && m_drag == Drag::None && area.contains(*m_mouse))
+        PlotReadout{m_traces, m_scales, now, area, m_mouse->x(), palette()}.paint(painter);
     if (m_marked || m_showFocus) {
         painter.setPen(QPen(colors(palette()).accent, m_marked ? 2 : 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(area);
     }
-}
-
-void PlotChart::mouseMoveEvent(QMouseEvent *event)
-{
-    m_cursor = event->position();
-    if (m_dragFrom && !m_window.isLive()) {
-        const TimeView now = view();
-        const double columns = (m_dragFrom->x() - event->position().x()) / plotArea().width() * now.columns;
-        emit panned(LineTime(std::llround(columns * static_cast<double>(now.step.count()))));
-        const double up = (event->position().y() - m_dragFrom->y()) / plotArea().height();
-        if (!m_autoscale) {
-            for (PlotScales::Scale &scale : m_scales.scales())
-                scale.scaler.move(up * scale.scaler.range().span());
-        }
-        m_dragFrom = event->position();
-    }
-    update();
-}
-
-void PlotChart::mousePressEvent(QMouseEvent *event)
-{
-    if (event->button() != Qt::LeftButton) {
-        QWidget::mousePressEvent(event);
-        return;
-    }
-    if (m_window.isLive())
-        return;
-    m_dragFrom = event->position();
-    setCursor(Qt::ClosedHandCursor);
-}
-
-void PlotChart::mouseReleaseEvent(QMouseEvent *event)
-{
-    if (event->button() != Qt::LeftButton)
-        return;
-    m_dragFrom.reset();
-    unsetCursor();
-    update();
-}
-
-void PlotChart::mouseDoubleClickEvent(QMouseEvent *)
-{
-    emit fitRequested();
-}
-
-void PlotChart::zoomValues(int steps, qreal y)
-{
-    const double factor = std::pow(WheelZoom, -steps);
-    const QRectF area = plotArea();
-    if (m_autoscale) {
-        m_autoscale = false;
-        emit autoscaleChanged(false);
-    }
-    for (PlotScales::Scale &scale : m_scales.scales()) {
-        const AxisRange &range = scale.scaler.range();
-        scale.scaler.zoom(factor, range.minimum + (area.bottom() - y) / area.height() * range.span());
-    }
-    update();
-}
-
-void PlotChart::zoomTime(int steps, qreal x)
-{
-    if (m_window.isLive()) {
-        emit spanStepped(-steps);
-        return;
-    }
-    const TimeView now = view();
-    const QRectF area = plotArea();
-    emit zoomed(std::pow(WheelZoom, -steps), now.timeAt((x - area.left()) / area.width() * now.columns));
-}
-
-void PlotChart::wheelEvent(QWheelEvent *event)
-{
-    event->accept();
-    m_wheelRest += event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x();
-    const int steps = m_wheelRest / WheelStep;
-    m_wheelRest -= steps * WheelStep;
-    if (steps == 0)
-        return;
-    if (event->modifiers().testFlag(Qt::ControlModifier))
-        zoomValues(steps, event->position().y());
-    else
-        zoomTime(steps, event->position().x());
-}
-
-void PlotChart::keyPressEvent(QKeyEvent *event)
-{
-    const QPointF centre = plotArea().center();
-    const bool values = event->modifiers().testFlag(Qt::ControlModifier);
-    const LineTime tenth = (view().to() - view().from()) / 10;
-    switch (event->key()) {
-    case Qt::Key_Left: emit panned(-tenth); return;
-    case Qt::Key_Right: emit panned(tenth); return;
-    case Qt::Key_Plus:
-    case Qt::Key_Equal: values ? zoomValues(1, centre.y()) : zoomTime(1, centre.x()); return;
-    case Qt::Key_Minus: values ? zoomValues(-1, centre.y()) : zoomTime(-1, centre.x()); return;
-    case Qt::Key_Home: emit fitRequested(); return;
-    default: QWidget::keyPressEvent(event);
-    }
-}
-
-void PlotChart::focusInEvent(QFocusEvent *event)
-{
-    m_showFocus = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason
-        || event->reason() == Qt::ShortcutFocusReason;
-    update();
-}
-
-void PlotChart::focusOutEvent(QFocusEvent *)
-{
-    m_showFocus = false;
-    update();
-}
-
-void PlotChart::leaveEvent(QEvent *)
-{
-    m_cursor.reset();
-    update();
 }
 
 void PlotChart::changeEvent(QEvent *event)

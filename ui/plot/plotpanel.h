@@ -7,11 +7,15 @@
 #include <QFrame>
 
 class QBoxLayout;
+class QMenu;
 class QToolButton;
 
 namespace dynascope {
 
+class MeasureModel;
+class MeasureTable;
 class PlotChart;
+struct PlotCursors;
 class TraceList;
 class TraceModel;
 
@@ -27,6 +31,18 @@ public:
     TraceModel &model() const { return *m_model; }
     PlotChart &chart() const { return *m_chart; }
     void setClosable(bool closable);
+    void setLive(bool live); ///< else it offers the way back
+
+    /// A time axis of its own, that of the others, or theirs.
+    bool hasOwnTime() const { return m_hasOwnTime; }
+    void setOwnTime(bool own);
+    TimeWindow &ownTime() { return m_ownTime; }
+
+    void setCursors(const PlotCursors &cursors);
+    /// See MeasureModel. Nothing to do without cursors.
+    void measure(const PlotCursors &cursors, std::size_t &budget);
+    void setNewest(LineTime newest);
+    void showFigures();
 
     /// Hands the chart the traces as they are now.
     void refreshTraces();
@@ -39,6 +55,8 @@ signals:
     void watchesDropped(const std::vector<dynascope::Watch> &watches);
     void removeRequested(const std::vector<dynascope::Watch> &watches);
     void closeRequested();
+    void liveRequested();
+    void ownTimeChanged();
     void activated(); ///< clicked or focused: the present panel
 
 protected:
@@ -52,12 +70,24 @@ protected:
 private:
     void onRemoveRequested(const QList<int> &rows);
     void updateList();
+    void makeButtons();
+    void placeButtons();
+    void fillMenu();
 
     const Monitor &m_monitor;
+    const TimeWindow &m_sharedTime;
+    TimeWindow m_ownTime;
+    bool m_hasOwnTime = false;
+    bool m_isClosable = false;
+    bool m_isMeasured = false; ///< all of what stands between the cursors now
     TraceModel *m_model;
     PlotChart *m_chart;
     TraceList *m_list;
-    QToolButton *m_close;
+    MeasureModel *m_figures;
+    MeasureTable *m_table;
+    QToolButton *m_more;
+    QToolButton *m_toLive;
+    QMenu *m_menu;
     QBoxLayout *m_layout;
 };
 

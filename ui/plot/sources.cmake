@@ -4,10 +4,15 @@ target_sources(dynascope_ui PRIVATE
     plot/columncache.cpp plot/columncache.h
     plot/columnraster.cpp plot/columnraster.h
     plot/csvsave.cpp plot/csvsave.h
-    plot/historymark.h
+    plot/measuremodel.cpp plot/measuremodel.h
+    plot/measuretable.cpp plot/measuretable.h
     plot/plotarea.cpp plot/plotarea.h
+    plot/plotarea_cursors.cpp
+    plot/plotarea_state.cpp
     plot/plotbar.cpp plot/plotbar.h
     plot/plotchart.cpp plot/plotchart.h
+    plot/plotchart_input.cpp
+    plot/plotcursors.cpp plot/plotcursors.h
     plot/plotexport.cpp plot/plotexport.h
     plot/plotpanel.cpp plot/plotpanel.h
     plot/plotreadout.cpp plot/plotreadout.h

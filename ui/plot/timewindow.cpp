@@ -39,6 +39,14 @@ void TimeWindow::zoom(double factor, LineTime around)
     m_pausedSpan = span;
 }
 
+void TimeWindow::show(LineTime from, LineTime to)
+{
+    if (m_live || to <= from)
+        return;
+    m_pausedSpan = std::clamp(to - from, ShortestZoom, LongestSpan);
+    m_end = std::min(from + (to - from) / 2 + m_pausedSpan / 2, m_zero);
+}
+
 TimeView TimeWindow::view(int columns, LineTime newest) const
 {
     const int count = std::max(columns, 1);

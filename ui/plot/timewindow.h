@@ -24,6 +24,7 @@ public:
     /// While paused.
     void pan(LineTime by);
     void zoom(double factor, LineTime around);
+    void show(LineTime from, LineTime to); ///< within the limits of zooming
 
     TimeView view(int columns, LineTime newest) const;
 
