@@ -3,19 +3,12 @@
 
 #include "core/session/history.h"
 #include "core/session/session.h"
+#include "core/session/watch.h"
 
 #include <map>
 #include <set>
 
 namespace dynascope {
-
-/// A field of a device that is read all the time.
-struct Watch {
-    DeviceKey device = 0;
-    int field = 0; ///< index in its table
-
-    friend auto operator<=>(const Watch &, const Watch &) = default;
-};
 
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///

@@ -15,9 +15,11 @@ target_sources(dynascope_core PRIVATE
     session/commissioning/fromprofile.cpp session/commissioning/fromprofile.h
     session/commissioning/identify.cpp session/commissioning/identify.h
     session/consequences.cpp session/consequences.h
+    session/derived.cpp session/derived.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
+    session/eventlog.cpp session/eventlog.h
     session/groupwrite.cpp session/groupwrite.h
     session/history.cpp session/history.h
     session/historymark.h
@@ -71,6 +73,8 @@ target_sources(dynascope_core PRIVATE
     session/settingscommands.cpp session/settingscommands.h
     session/spanmeasure.cpp session/spanmeasure.h
     session/stopcontrol.cpp session/stopcontrol.h
+    session/trigger.cpp session/trigger.h
     session/volatilespan.cpp session/volatilespan.h
+    session/watch.h
     session/watchplan.cpp session/watchplan.h
 )

@@ -20,6 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr auto FrameInterval = 16ms;
 constexpr auto ValueInterval = 100ms;
+constexpr std::size_t DerivedAFrame = 100'000; ///< samples, about a millisecond
 
 } // namespace
 
@@ -55,7 +56,7 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
     connect(&monitor, &Monitor::watchesChanged, this, &PlotArea::refreshAll);
     connect(&session, &Session::deviceAdded, this, &PlotArea::restoreTraces);
     connect(&session, &Session::deviceAdded, this, [this](Device *device) {
-        for (const Watch &watch : traces()) {
+        for (const Watch &watch : needed()) {
             if (watch.device == device->key()) // it is back
                 m_monitor.watch(watch);
         }
@@ -101,7 +102,8 @@ PlotPanel *PlotArea::addPanel()
     connect(panel, &PlotPanel::ownTimeChanged, this, &PlotArea::showNewest);
     connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
     connect(panel, &PlotPanel::removeRequested, this,
-        [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
+        [this, panel](const std::vector<TraceKey> &keys) { removeFrom(panel, keys); });
+    connect(panel, &PlotPanel::deriveRequested, this, [this, panel](const TraceKey &key) { addTo(panel, key); });
     connect(panel, &PlotPanel::watchesDropped, this, [this, panel](const std::vector<Watch> &watches) {
         for (const Watch &watch : watches)
             addTo(panel, watch);
@@ -145,7 +147,7 @@ void PlotArea::closePanel(PlotPanel *panel)
 {
     if (m_panels.size() < 2)
         return;
-    removeFrom(panel, panel->model().watches());
+    removeFrom(panel, panel->model().keys());
     // What waits is kept per panel: it goes with its own.
     const auto at = std::ranges::find(m_panels, panel);
     if (const auto index = at - m_panels.begin(); index < std::ssize(m_waiting))
@@ -159,17 +161,18 @@ void PlotArea::closePanel(PlotPanel *panel)
         each->setClosable(m_panels.size() > 1);
 }
 
-void PlotArea::addTrace(const Watch &watch)
+void PlotArea::addTrace(const TraceKey &key)
 {
-    if (!shows(watch))
-        addTo(m_present, watch);
+    if (!shows(key))
+        addTo(m_present, key);
 }
 
-void PlotArea::addTo(PlotPanel *panel, const Watch &watch)
+void PlotArea::addTo(PlotPanel *panel, const TraceKey &key)
 {
-    if (!panel->model().add(watch))
+    if (!panel->model().add(key))
         return;
-    m_monitor.watch(watch);
+    for (const Watch &watch : panel->model().needed())
+        m_monitor.watch(watch);
     onTracesChanged();
 }
 
@@ -179,16 +182,20 @@ void PlotArea::removeTrace(const Watch &watch)
         removeFrom(panel, {watch});
 }
 
-void PlotArea::removeFrom(PlotPanel *panel, const std::vector<Watch> &watches)
+void PlotArea::removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys)
 {
+    const std::set<Watch> before = panel->model().needed();
     bool isAnyRemoved = false;
-    for (const Watch &watch : watches) {
-        const int row = panel->model().indexOf(watch);
+    for (const TraceKey &key : keys) {
+        const int row = panel->model().indexOf(key);
         if (row < 0)
             continue;
         panel->model().remove(row);
         isAnyRemoved = true;
-        if (!shows(watch))
+    }
+    const std::set<Watch> still = needed();
+    for (const Watch &watch : before) {
+        if (!still.contains(watch))
             m_monitor.unwatch(watch);
     }
     if (isAnyRemoved)
@@ -197,18 +204,19 @@ void PlotArea::removeFrom(PlotPanel *panel, const std::vector<Watch> &watches)
 
 void PlotArea::onTracesChanged()
 {
-    m_bar->setHasTraces(!traces().empty());
-    if (traces().empty())
+    const bool isEmpty = needed().empty();
+    m_bar->setHasTraces(!isEmpty);
+    if (isEmpty)
         setLive(true);
     refreshAll();
     showCursors();
     emit tracesChanged();
 }
 
-bool PlotArea::shows(const Watch &watch) const
+bool PlotArea::shows(const TraceKey &key) const
 {
     return std::ranges::any_of(
-        m_panels, [&watch](const PlotPanel *panel) { return panel->model().indexOf(watch) >= 0; });
+        m_panels, [&key](const PlotPanel *panel) { return panel->model().indexOf(key) >= 0; });
 }
 
 std::vector<Watch> PlotArea::traces() const
@@ -219,6 +227,25 @@ std::vector<Watch> PlotArea::traces() const
         all.insert(watches.begin(), watches.end());
     }
     return {all.begin(), all.end()};
+}
+
+std::set<Watch> PlotArea::needed() const
+{
+    std::set<Watch> all;
+    for (const PlotPanel *panel : m_panels)
+        all.merge(panel->model().needed());
+    return all;
+}
+
+/// A bounded part with each frame, also while paused: what is added then is made for what is seen.
+void PlotArea::derive()
+{
+    std::size_t budget = DerivedAFrame;
+    for (PlotPanel *panel : m_panels) {
+        const std::optional<LineTime> first = panel->model().derive(budget);
+        if (first && !m_window.isLive() && *first <= windowOf(panel).pausedAt())
+            panel->refreshTraces();
+    }
 }
 
 void PlotArea::showEvent(QShowEvent *event)
@@ -239,6 +266,7 @@ void PlotArea::hideEvent(QHideEvent *event)
 /// Paints only where something new has come; what is paused stands still anyway.
 void PlotArea::onFrame()
 {
+    derive();
     measure();
     if (!m_window.isLive())
         return;
@@ -354,7 +382,8 @@ void PlotArea::saveCsvFile()
         for (const PlotPanel *panel : m_panels) {
             const std::vector<TraceData> drawn = panel->model().drawn(palette());
             for (std::size_t row = 0; row < drawn.size(); ++row)
-                all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row]});
+                all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row],
+                    panel->model().derivedHistory(static_cast<int>(row))});
         }
         return all;
     };

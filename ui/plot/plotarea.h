@@ -31,10 +31,10 @@ public:
     PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< all that it needs
     ~PlotArea() override;
 
-    void addTrace(const Watch &watch); ///< to the present panel; nothing if it is shown already
+    void addTrace(const TraceKey &key); ///< to the present panel; nothing if it is shown already
     void removeTrace(const Watch &watch);
-    bool shows(const Watch &watch) const;
-    std::vector<Watch> traces() const;
+    bool shows(const TraceKey &key) const;
+    std::vector<Watch> traces() const; ///< those that aren't derived
 
     PlotPanel *addPanel();
     void closePanel(PlotPanel *panel); ///< with its traces; the last one stays
@@ -66,8 +66,10 @@ private:
     TimeWindow &windowOf(PlotPanel *panel);
     void pauseAt(LineTime newest);
     LineTime newest() const;
-    void addTo(PlotPanel *panel, const Watch &watch);
-    void removeFrom(PlotPanel *panel, const std::vector<Watch> &watches);
+    void addTo(PlotPanel *panel, const TraceKey &key);
+    void removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys);
+    std::set<Watch> needed() const;
+    void derive();
     void onTracesChanged();
     void onFrame();
     void showNewest();
@@ -79,7 +81,7 @@ private:
     void clear();
     void fit();
     void saveCsvFile();
-    void restoreTraces(Device *device);
+    void restoreTraces();
 
     Session &m_session;
     Monitor &m_monitor;

@@ -20,12 +20,12 @@ QByteArray PlotArea::saveState() const
         const TraceModel &model = m_panels[i]->model();
         std::vector<PlotState::Trace> traces;
         for (int row = 0; row < model.rowCount(); ++row) {
-            const Device *device = m_session.device(model.watch(row).device);
-            if (!device || !device->line())
+            std::optional<PlotState::Trace> trace = PlotState::Trace::of(model.key(row), m_session);
+            if (!trace)
                 continue;
-            const Field &field = device->table().fields()[static_cast<std::size_t>(model.watch(row).field)];
-            traces.push_back({device->line()->name(), device->table().modelNumber(), device->id(), field.name,
-                model.colorIndex(row), model.isVisible(row)});
+            trace->color = model.colorIndex(row);
+            trace->visible = model.isVisible(row);
+            traces.push_back(*std::move(trace));
         }
         if (i < m_waiting.size())
             traces.insert(traces.end(), m_waiting[i].begin(), m_waiting[i].end());
@@ -45,20 +45,21 @@ void PlotArea::restoreState(const QByteArray &bytes)
         addPanel();
     m_present = m_panels.front();
     m_waiting = state->panels;
-    for (Device *device : m_session.devices())
-        restoreTraces(device);
+    restoreTraces();
 }
 
-void PlotArea::restoreTraces(Device *device)
+/// Those of m_waiting whose devices are there.
+void PlotArea::restoreTraces()
 {
+    const std::vector<Device *> devices = m_session.devices();
     for (std::size_t i = 0; i < std::min(m_waiting.size(), m_panels.size()); ++i) {
-        std::erase_if(m_waiting[i], [this, i, device](const PlotState::Trace &trace) {
-            if (!trace.fits(*device))
+        std::erase_if(m_waiting[i], [this, i, &devices](const PlotState::Trace &trace) {
+            const std::optional<TraceKey> key = trace.find(devices);
+            if (!key)
                 return false;
-            const Watch watch{device->key(), device->table().indexOf(trace.field)};
-            addTo(m_panels[i], watch);
+            addTo(m_panels[i], *key);
             TraceModel &model = m_panels[i]->model();
-            const int row = model.indexOf(watch);
+            const int row = model.indexOf(*key);
             if (row >= 0) {
                 model.setColorIndex(row, trace.color);
                 model.setVisible(row, trace.visible);

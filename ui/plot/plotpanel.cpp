@@ -51,6 +51,7 @@ PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow 
     m_chart->setAccessibleName(tr("Plot"));
     makeButtons();
     connect(m_list, &TraceList::removeRequested, this, &PlotPanel::onRemoveRequested);
+    connect(m_list, &TraceList::deriveRequested, this, &PlotPanel::deriveRequested);
     connect(m_list, &TraceList::currentRowChanged, m_chart, &PlotChart::setEmphasized);
     for (const auto signal : {&TraceModel::rowsInserted, &TraceModel::rowsRemoved})
         connect(m_model, signal, this, &PlotPanel::updateList);
@@ -97,6 +98,8 @@ void PlotPanel::fillMenu()
         setOwnTime(on);
         emit ownTimeChanged();
     });
+    m_menu->addSeparator();
+    m_list->addDerivedActions(*m_menu);
     m_menu->addSeparator();
     QAction *close = m_menu->addAction(icon(QStringLiteral("close")), tr("&Close this panel and its traces"));
     close->setEnabled(m_isClosable);
@@ -175,7 +178,7 @@ void PlotPanel::refreshTraces()
 std::uint64_t PlotPanel::samplesSeen() const
 {
     std::uint64_t count = 0;
-    for (const Watch &watch : m_model->watches()) {
+    for (const Watch &watch : m_model->needed()) {
         if (const History *history = m_monitor.history(watch))
             count += history->appended();
     }
@@ -185,7 +188,7 @@ std::uint64_t PlotPanel::samplesSeen() const
 LineTime PlotPanel::newest() const
 {
     LineTime newest{};
-    for (const Watch &watch : m_model->watches()) {
+    for (const Watch &watch : m_model->needed()) {
         const History *history = m_monitor.history(watch);
         if (history && !history->isEmpty())
             newest = std::max(newest, history->last().at);
@@ -195,10 +198,10 @@ LineTime PlotPanel::newest() const
 
 void PlotPanel::onRemoveRequested(const QList<int> &rows)
 {
-    std::vector<Watch> watches;
+    std::vector<TraceKey> keys;
     for (const int row : rows)
-        watches.push_back(m_model->watch(row));
-    emit removeRequested(watches);
+        keys.push_back(m_model->key(row));
+    emit removeRequested(keys);
 }
 
 void PlotPanel::dragEnterEvent(QDragEnterEvent *event)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/derived.h"
 #include "core/session/monitor.h"
 #include "ui/plot/timewindow.h"
 
@@ -53,7 +54,8 @@ public:
 
 signals:
     void watchesDropped(const std::vector<dynascope::Watch> &watches);
-    void removeRequested(const std::vector<dynascope::Watch> &watches);
+    void removeRequested(const std::vector<dynascope::TraceKey> &keys);
+    void deriveRequested(const dynascope::TraceKey &key);
     void closeRequested();
     void liveRequested();
     void ownTimeChanged();

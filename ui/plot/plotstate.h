@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/derived.h"
 #include "core/session/session.h"
 
 #include <vector>
@@ -17,8 +18,15 @@ struct PlotState {
         QString field;
         int color = 0;
         bool visible = true;
+        Derivation derivation = {}; ///< its `other` is named by the following
+        QString otherLine = {};
+        int otherModel = 0;
+        int otherId = 0;
+        QString otherField = {};
 
-        bool fits(const Device &device) const;
+        /// The trace among these devices; nothing where they aren't all there.
+        std::optional<TraceKey> find(const std::vector<Device *> &devices) const;
+        static std::optional<Trace> of(const TraceKey &key, const Session &session);
         friend bool operator==(const Trace &, const Trace &) = default;
     };
 

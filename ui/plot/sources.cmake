@@ -25,4 +25,6 @@ target_sources(dynascope_ui PRIVATE
     plot/traceimage.cpp plot/traceimage.h
     plot/tracelist.cpp plot/tracelist.h
     plot/tracemodel.cpp plot/tracemodel.h
+    plot/tracemodel_derived.cpp
+    plot/deriveddialog.cpp plot/deriveddialog.h
 )

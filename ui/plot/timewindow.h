@@ -20,6 +20,7 @@ public:
     bool isLive() const { return m_live; }
     void setLive() { m_live = true; }
     void pause(LineTime newest); ///< what is seen stays
+    LineTime pausedAt() const { return m_zero; } ///< while paused: the newest sample then
 
     /// While paused.
     void pan(LineTime by);

@@ -15,18 +15,39 @@ TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent
     connect(&session, &Session::deviceAdded, this, &TraceModel::onDeviceBack);
 }
 
-int TraceModel::indexOf(const Watch &watch) const
+int TraceModel::indexOf(const TraceKey &key) const
 {
-    const auto at = std::ranges::find(m_traces, watch, &Trace::watch);
+    const auto at = std::ranges::find(m_traces, key, &Trace::key);
     return at == m_traces.end() ? -1 : static_cast<int>(at - m_traces.begin());
+}
+
+std::vector<TraceKey> TraceModel::keys() const
+{
+    std::vector<TraceKey> keys;
+    for (const Trace &trace : m_traces)
+        keys.push_back(trace.key);
+    return keys;
 }
 
 std::vector<Watch> TraceModel::watches() const
 {
     std::vector<Watch> watches;
-    for (const Trace &trace : m_traces)
-        watches.push_back(trace.watch);
+    for (const Trace &trace : m_traces) {
+        if (!trace.key.isDerived())
+            watches.push_back(trace.key.watch);
+    }
     return watches;
+}
+
+std::set<Watch> TraceModel::needed() const
+{
+    std::set<Watch> all;
+    for (const Trace &trace : m_traces) {
+        all.insert(trace.key.watch);
+        if (trace.key.derivation.kind == Derivation::Kind::Difference)
+            all.insert(trace.key.derivation.other);
+    }
+    return all;
 }
 
 int TraceModel::freeColor() const
@@ -40,24 +61,15 @@ int TraceModel::freeColor() const
 /// What the device says of itself and of the field: names, and how raw values become physical ones.
 void TraceModel::describe(Trace &trace) const
 {
-    const Device *device = m_session.device(trace.watch.device);
+    const Device *device = m_session.device(trace.key.watch.device);
     if (!device || trace.gone)
         return;
-    trace.effective = device->effective(trace.watch.field);
+    trace.effective = device->effective(trace.key.watch.field);
     trace.resolution = device->table().resolution();
     trace.device = device->displayName();
-    trace.field = device->table().fields()[static_cast<std::size_t>(trace.watch.field)].name;
+    trace.field = nameOf(trace.key);
+    relate(trace);
     measure(trace);
-}
-
-/// In the chosen units. Linear, for histories keep signed numbers.
-void TraceModel::measure(Trace &trace) const
-{
-    const Physical zero = physical(trace.effective, trace.resolution, 0, m_units);
-    trace.offset = zero.value;
-    trace.scale = physical(trace.effective, trace.resolution, 1, m_units).value - zero.value;
-    trace.decimals = zero.decimals;
-    trace.unit = zero.unit;
 }
 
 void TraceModel::setUnits(const UnitPreferences &units)
@@ -76,19 +88,27 @@ void TraceModel::setUnits(const UnitPreferences &units)
 
 bool TraceModel::isSilent(const Trace &trace) const
 {
-    const Device *device = m_session.device(trace.watch.device);
+    const Device *device = m_session.device(trace.key.watch.device);
     return device && device->state() == Device::State::Silent;
 }
 
-bool TraceModel::add(const Watch &watch)
+bool TraceModel::add(const TraceKey &key)
 {
-    Device *device = m_session.device(watch.device);
-    if (!device || watch.field < 0 || watch.field >= static_cast<int>(device->table().fields().size())
-        || indexOf(watch) >= 0)
+    const auto names = [this](const Watch &watch) {
+        const Device *device = m_session.device(watch.device);
+        return device && watch.field >= 0 && watch.field < static_cast<int>(device->table().fields().size());
+    };
+    if (!names(key.watch) || indexOf(key) >= 0)
         return false;
+    if (key.derivation.kind == Derivation::Kind::Difference
+        && (!names(key.derivation.other) || !areComparable(key.watch, key.derivation.other)))
+        return false;
+    Device *device = m_session.device(key.watch.device);
     Trace trace;
-    trace.watch = watch;
+    trace.key = key;
     trace.color = freeColor();
+    if (key.isDerived() && key.derivation.kind != Derivation::Kind::Scaled)
+        trace.derived = std::make_shared<DerivedHistory>(key.derivation);
     describe(trace);
     follow(device);
     beginInsertRows({}, rowCount(), rowCount());
@@ -104,7 +124,7 @@ void TraceModel::remove(int row)
     m_traces.erase(m_traces.begin() + row);
     endRemoveRows();
     Device *device = m_session.device(key);
-    if (device && std::ranges::none_of(m_traces, [key](const Trace &trace) { return trace.watch.device == key; }))
+    if (device && std::ranges::none_of(m_traces, [key](const Trace &trace) { return trace.key.watch.device == key; }))
         disconnect(device, nullptr, this, nullptr);
 }
 
@@ -123,7 +143,7 @@ void TraceModel::updateDevice(Device *device)
 {
     for (int row = 0; row < rowCount(); ++row) {
         Trace &trace = m_traces[static_cast<std::size_t>(row)];
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         describe(trace);
         emit dataChanged(index(row), index(row));
@@ -134,7 +154,7 @@ void TraceModel::onDeviceGone(Device *device)
 {
     for (int row = 0; row < rowCount(); ++row) {
         Trace &trace = m_traces[static_cast<std::size_t>(row)];
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         trace.gone = true;
         trace.value.clear();
@@ -147,7 +167,7 @@ void TraceModel::onDeviceBack(Device *device)
 {
     bool isShown = false;
     for (Trace &trace : m_traces) {
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         trace.gone = false;
         isShown = true;
@@ -169,7 +189,7 @@ std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
     traces.reserve(m_traces.size());
     for (const Trace &trace : m_traces) {
         TraceData data;
-        data.history = m_monitor.history(trace.watch);
+        data.history = historyOf(trace);
         data.scale = trace.scale;
         data.offset = trace.offset;
         data.decimals = trace.decimals;
@@ -193,8 +213,8 @@ void TraceModel::refreshValues()
         describe(trace); // a register may have changed what this one measures
         if (trace.scale != before.scale || trace.offset != before.offset || trace.unit != before.unit)
             emit dataChanged(index(row), index(row));
-        const Device *device = m_session.device(trace.watch.device);
-        const History *history = m_monitor.history(trace.watch);
+        const Device *device = m_session.device(trace.key.watch.device);
+        const History *history = historyOf(trace);
         QString value;
         if (device && !trace.gone && history && !history->isEmpty())
             value = withMinus(
