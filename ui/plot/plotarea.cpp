@@ -20,18 +20,26 @@ using namespace std::chrono_literals;
 
 constexpr auto FrameInterval = 16ms;
 constexpr auto ValueInterval = 100ms;
-constexpr std::size_t DerivedAFrame = 100'000; ///< samples, about a millisecond
 
 } // namespace
 
-PlotArea::PlotArea(const Workbench &workbench, QWidget *parent) : PlotArea(workbench.session, workbench.monitor, parent)
+PlotArea::PlotArea(const Workbench &workbench, QWidget *parent)
+    : PlotArea(workbench.session, workbench.monitor, workbench.journal, workbench.ramGuard, parent)
 {
 }
 
 PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
+    : PlotArea(session, monitor, nullptr, nullptr, parent)
+{
+}
+
+PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, const RamGuard *guard, QWidget *parent)
     : QWidget(parent)
     , m_session(session)
     , m_monitor(monitor)
+    , m_colors(session)
+    , m_events(new EventLog(session, journal, guard, this))
+    , m_trigger(new PlotTrigger(*m_events, this))
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
     , m_saver(new PlotSaver(monitor, this))
@@ -81,6 +89,8 @@ void PlotArea::connectBar()
     connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
     connect(m_bar, &PlotBar::cursorsChanged, this, &PlotArea::setCursorsOn);
+    connect(m_bar, &PlotBar::triggerChanged, this, &PlotArea::setTriggerOn);
+    connect(m_bar, &PlotBar::triggerSettingsRequested, this, &PlotArea::askForTrigger);
 }
 
 std::vector<QAction *> PlotArea::saveActions() const
@@ -90,7 +100,7 @@ std::vector<QAction *> PlotArea::saveActions() const
 
 PlotPanel *PlotArea::addPanel()
 {
-    auto *panel = new PlotPanel(m_session, m_monitor, m_window, m_splitter);
+    auto *panel = new PlotPanel(PlotPanel::Common{m_session, m_monitor, m_window, m_colors, *m_events}, m_splitter);
     m_splitter->addWidget(panel);
     m_panels.push_back(panel);
     m_present = panel;
@@ -126,14 +136,17 @@ void PlotArea::connectChart(PlotPanel *panel)
     });
     connect(chart, &PlotChart::pauseRequested, this, [this] { setLive(false); });
     connect(chart, &PlotChart::zoomed, this, [this, panel](double factor, LineTime around) {
+        standStill();
         windowOf(panel).zoom(factor, around);
         showNewest();
     });
     connect(chart, &PlotChart::panned, this, [this, panel](LineTime by) {
+        standStill();
         windowOf(panel).pan(by);
         showNewest();
     });
     connect(chart, &PlotChart::timesChosen, this, [this, panel](LineTime from, LineTime to) {
+        standStill();
         windowOf(panel).show(from, to);
         showNewest();
     });
@@ -237,17 +250,6 @@ std::set<Watch> PlotArea::needed() const
     return all;
 }
 
-/// A bounded part with each frame, also while paused: what is added then is made for what is seen.
-void PlotArea::derive()
-{
-    std::size_t budget = DerivedAFrame;
-    for (PlotPanel *panel : m_panels) {
-        const std::optional<LineTime> first = panel->model().derive(budget);
-        if (first && !m_window.isLive() && *first <= windowOf(panel).pausedAt())
-            panel->refreshTraces();
-    }
-}
-
 void PlotArea::showEvent(QShowEvent *event)
 {
     QWidget::showEvent(event);
@@ -267,6 +269,7 @@ void PlotArea::hideEvent(QHideEvent *event)
 void PlotArea::onFrame()
 {
     derive();
+    lookAtTrigger();
     measure();
     if (!m_window.isLive())
         return;
@@ -297,41 +300,6 @@ void PlotArea::showNewest()
     const LineTime at = newest();
     for (PlotPanel *panel : m_panels)
         panel->setNewest(at);
-}
-
-LineTime PlotArea::newest() const
-{
-    LineTime newest{};
-    for (const PlotPanel *panel : m_panels)
-        newest = std::max(newest, panel->newest());
-    return newest;
-}
-
-TimeWindow &PlotArea::windowOf(PlotPanel *panel)
-{
-    return panel->hasOwnTime() ? panel->ownTime() : m_window;
-}
-
-void PlotArea::pauseAt(LineTime newest)
-{
-    m_window.pause(newest);
-    for (PlotPanel *panel : m_panels)
-        panel->ownTime().pause(newest);
-}
-
-void PlotArea::setLive(bool live)
-{
-    if (live) {
-        m_window.setLive();
-        for (PlotPanel *panel : m_panels)
-            panel->ownTime().setLive();
-    } else {
-        pauseAt(newest());
-    }
-    m_bar->setLive(live);
-    for (PlotPanel *panel : m_panels)
-        panel->setLive(live);
-    refreshAll();
 }
 
 void PlotArea::setAutoscale(bool on)
@@ -367,6 +335,7 @@ void PlotArea::fit()
 void PlotArea::clear()
 {
     m_monitor.clear();
+    m_events->clear();
     m_samplesSeen = 0;
     setLive(true);
     for (PlotPanel *panel : m_panels)

@@ -7,7 +7,9 @@
 #include "ui/common/workbench.h"
 #include "ui/plot/plotcursors.h"
 #include "ui/plot/plotstate.h"
+#include "ui/plot/plottrigger.h"
 #include "ui/plot/timewindow.h"
+#include "ui/plot/tracecolors.h"
 
 #include <QTimer>
 #include <QWidget>
@@ -17,9 +19,11 @@ class QSplitter;
 
 namespace dynascope {
 
+class Journal;
 class PlotBar;
 class PlotPanel;
 class PlotSaver;
+class RamGuard;
 
 /// One or more plot panels under a common tool bar. Watches what it shows and stops watching what it no longer shows.
 class PlotArea : public QWidget
@@ -28,7 +32,8 @@ class PlotArea : public QWidget
 
 public:
     explicit PlotArea(const Workbench &workbench, QWidget *parent = nullptr);
-    PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< all that it needs
+    PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< without journal
+    PlotArea(Session &session, Monitor &monitor, const Journal *journal, const RamGuard *guard, QWidget *parent);
     ~PlotArea() override;
 
     void addTrace(const TraceKey &key); ///< to the present panel; nothing if it is shown already
@@ -43,6 +48,10 @@ public:
     void setLive(bool live);
     void setAutoscale(bool on);
     void setCursorsOn(bool on);
+    PlotTrigger &trigger() const { return *m_trigger; }
+    void arm(const TriggerChoice &choice);
+    void setTriggerOn(bool on);
+    EventLog &events() const { return *m_events; }
     const PlotCursors &cursors() const { return m_cursors; }
     void setUnits(const UnitPreferences &units); ///< axes, readouts, lists, and what is saved
 
@@ -64,7 +73,11 @@ private:
     void connectBar();
     void connectChart(PlotPanel *panel);
     TimeWindow &windowOf(PlotPanel *panel);
-    void pauseAt(LineTime newest);
+    void standStill(); ///< what the trigger shows was moved or zoomed: it stays
+    PlotPanel *triggeringPanel() const;
+    void askForTrigger();
+    void lookAtTrigger();
+    void showTrigger();
     LineTime newest() const;
     void addTo(PlotPanel *panel, const TraceKey &key);
     void removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys);
@@ -87,6 +100,10 @@ private:
     Monitor &m_monitor;
     TimeWindow m_window;
     UnitPreferences m_units;
+    TraceColors m_colors;
+    EventLog *m_events;
+    PlotTrigger *m_trigger;
+    bool m_isHeld = false; ///< the view stands where the trigger put it
     PlotBar *m_bar;
     QSplitter *m_splitter;
     PlotSaver *m_saver;

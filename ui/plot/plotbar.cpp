@@ -5,7 +5,9 @@
 #include "ui/plot/timewindow.h"
 
 #include <QLabel>
+#include <QMenu>
 #include <QSignalBlocker>
+#include <QToolButton>
 
 #include <algorithm>
 #include <array>
@@ -103,6 +105,16 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
            "Shift+arrows move the last one, C hides them"));
     m_cursors->setCheckable(true);
     connect(m_cursors, &QAction::toggled, this, &PlotBar::cursorsChanged);
+    m_trigger = add(QStringLiteral("trigger"), tr("Trigger"),
+        tr("Let the plots stand where a trace crosses a level, or something happens; the arrow asks for when"));
+    m_trigger->setCheckable(true);
+    connect(m_trigger, &QAction::toggled, this, &PlotBar::triggerChanged);
+    auto *menu = new QMenu(this);
+    connect(menu->addAction(tr("Trigger &settings…")), &QAction::triggered, this, &PlotBar::triggerSettingsRequested);
+    if (auto *button = qobject_cast<QToolButton *>(widgetForAction(m_trigger))) {
+        button->setMenu(menu);
+        button->setPopupMode(QToolButton::MenuButtonPopup);
+    }
     addSeparator();
     QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
     connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
@@ -121,7 +133,7 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
         add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
     m_save = {csv, picture};
-    m_needTraces = {m_pause, m_cursors, clear, csv, picture};
+    m_needTraces = {m_pause, m_cursors, m_trigger, clear, csv, picture};
     setHasTraces(false);
 }
 
@@ -158,6 +170,12 @@ void PlotBar::setCursors(bool on)
 {
     const QSignalBlocker blocker(m_cursors);
     m_cursors->setChecked(on);
+}
+
+void PlotBar::setTrigger(bool on)
+{
+    const QSignalBlocker blocker(m_trigger);
+    m_trigger->setChecked(on);
 }
 
 void PlotBar::setSpan(int seconds)

@@ -42,6 +42,7 @@ public:
     void setSpan(int seconds);
     void stepSpan(int steps) { m_span->stepBy(steps); }
     void setCursors(bool on);
+    void setTrigger(bool on);
     void setHasTraces(bool has);
     const std::vector<QAction *> &saveActions() const { return m_save; }
 
@@ -50,6 +51,8 @@ signals:
     void spanChanged(int seconds);
     void autoscaleChanged(bool on);
     void cursorsChanged(bool on);
+    void triggerChanged(bool on);
+    void triggerSettingsRequested();
     void clearRequested();
     void csvRequested();
     void pictureRequested();
@@ -63,6 +66,7 @@ private:
     QAction *m_pause;
     QAction *m_autoscale;
     QAction *m_cursors;
+    QAction *m_trigger;
     std::vector<QAction *> m_save;
     QList<QAction *> m_needTraces;
 };

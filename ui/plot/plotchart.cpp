@@ -80,6 +80,14 @@ void PlotChart::setCursors(const PlotCursors &cursors)
     update();
 }
 
+void PlotChart::setTrigger(const TriggerMark &trigger)
+{
+    if (trigger == m_trigger)
+        return;
+    m_trigger = trigger;
+    update();
+}
+
 LabelColumns PlotChart::labelColumns() const
 {
     LabelColumns columns{m_scales.labelled(0) ? 1 : 0, 0};
@@ -151,7 +159,7 @@ void PlotChart::paintTraces(QPainter &painter, const TimeView &view, const QRect
     std::vector<TraceImage::Item> items;
     items.reserve(m_traces.size());
     for (const TraceData &trace : m_traces)
-        items.push_back({&trace, &m_scales.range(trace.unit), 1.5F * ratio});
+        items.push_back({&trace, &m_scales.range(trace.unit), 1.5F * ratio, false, static_cast<int>(std::lround(ratio))});
     if (m_emphasized >= 0 && m_emphasized < static_cast<int>(items.size())) {
         items[static_cast<std::size_t>(m_emphasized)].thickness = 2.5F * ratio;
         items[static_cast<std::size_t>(m_emphasized)].isOnTop = true;
@@ -172,6 +180,32 @@ void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
     const QRectF icon(area.center().x() - IconSize / 2, text.top() - IconSize - 16, IconSize, IconSize);
     if (icon.top() > area.top())
         paintIcon(&painter, icon, QStringLiteral("chart"), color);
+}
+
+/// The level, and, where the view stands, the moment.
+void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const
+{
+    if (!m_trigger.isOn)
+        return;
+    const QColor color = colors(palette()).warning;
+    painter.setPen(QPen(color, 1, Qt::DashLine));
+    if (m_trigger.hasLevel) {
+        const AxisRange &range = m_scales.range(m_trigger.unit);
+        const qreal y = std::round(area.bottom() - (m_trigger.level - range.minimum) / range.span() * area.height());
+        if (y >= area.top() && y <= area.bottom())
+            painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
+    }
+    if (m_trigger.isShown) {
+        const qreal x = std::round(area.left() + view.column(view.zero) / view.columns * area.width());
+        if (x >= area.left() && x <= area.right())
+            painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+    }
+    const QFontMetricsF metrics(painter.font());
+    const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, area.width() - 16);
+    QRectF box(area.left() + 4, area.bottom() - metrics.height() - 6, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
+    painter.fillRect(box, palette().color(QPalette::Base));
+    painter.setPen(colors(palette()).dimmed);
+    painter.drawText(box, Qt::AlignCenter, text);
 }
 
 void PlotChart::paintBox(QPainter &painter, const QRectF &area) const
@@ -199,6 +233,8 @@ void PlotChart::paintEvent(QPaintEvent *)
     } else {
         paintTraces(painter, now, area);
     }
+    m_marks.paint(painter, now, area, palette());
+    paintTrigger(painter, now, area);
     m_cursors.paint(painter, now, area, palette());
     if (m_drag == Drag::Box)
         paintBox(painter, area);

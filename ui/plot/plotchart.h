@@ -3,7 +3,9 @@
 
 #include "ui/plot/chartframe.h"
 #include "ui/plot/plotcursors.h"
+#include "ui/plot/plotmarks.h"
 #include "ui/plot/plotscales.h"
+#include "ui/plot/plottrigger.h"
 #include "ui/plot/timewindow.h"
 #include "ui/plot/traceimage.h"
 
@@ -11,8 +13,7 @@
 
 namespace dynascope {
 
-/// One coordinate system with its traces. Shows what it is given; the time it shows is its owner's. Painting is in
-/// plotchart.cpp, what mouse and keys do in plotchart_input.cpp.
+/// One coordinate system with its traces. Shows what it is given; the time it shows is its owner's.
 class PlotChart : public QWidget
 {
     Q_OBJECT
@@ -34,13 +35,13 @@ public:
     bool isAutoscale() const { return !m_scales.isAnyByHand(); }
     void setAxisRange(const QString &unit, double minimum, double maximum); ///< by hand
     void setCursors(const PlotCursors &cursors);
-    /// Room for labels left and right: several charts below each other keep it alike, so that their times stand in
-    /// line.
+    void setTrigger(const TriggerMark &trigger);
+    void setMarks(const PlotMarks &marks) { m_marks = marks; }
+    /// Room for labels left and right: kept alike by charts below each other, so that their times stand in line.
     LabelColumns labelColumns() const;
     void setLabelRoom(LabelColumns room);
     void setEmptyText(const QString &text);
     void setMarked(bool marked); ///< outlined: a drop would go here
-
     const PlotScales &scales() const { return m_scales; }
     TimeView view() const;
     QRectF plotArea() const;
@@ -59,6 +60,7 @@ signals:
     void cursorsToggled();
 
 protected:
+    bool event(QEvent *event) override;
     void paintEvent(QPaintEvent *event) override;
     void mouseMoveEvent(QMouseEvent *event) override;
     void mousePressEvent(QMouseEvent *event) override;
@@ -79,6 +81,7 @@ private:
     void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
     void paintBox(QPainter &painter, const QRectF &area) const;
+    void paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const;
     int axisAt(const QPointF &at) const; ///< whose labels are there; −1: none's
     std::vector<PlotScales::Scale *> scalesOf(int axis); ///< −1: all
     void zoomValues(int steps, qreal y, int axis = -1);
@@ -100,15 +103,15 @@ private:
     LineTime m_newest{};
     QString m_emptyText;
     int m_emphasized = -1;
-    bool m_marked = false;
     LabelColumns m_labelRoom;
-    bool m_showFocus = false; ///< it came by key
+    bool m_marked = false, m_showFocus = false; ///< the focus came by key
     PlotCursors m_cursors;
+    TriggerMark m_trigger;
+    PlotMarks m_marks;
     std::optional<QPointF> m_mouse;
     Drag m_drag = Drag::None;
-    int m_dragged = -1;  ///< cursor or axis
-    QPointF m_dragFrom;  ///< where it began
-    QPointF m_dragLast;
+    int m_dragged = -1; ///< cursor or axis
+    QPointF m_dragFrom, m_dragLast;
     bool m_wasMoved = false; ///< more than a click
     int m_wheelRest = 0; ///< eighths of a degree that don't make a step yet
 };

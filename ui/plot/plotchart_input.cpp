@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/plotchart.h"
 
+#include "ui/common/texts.h"
+
 #include <QApplication>
+#include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
+#include <QToolTip>
 #include <QWheelEvent>
 
 #include <cmath>
@@ -103,6 +107,19 @@ void PlotChart::beginDrag(Drag drag, const QPointF &at)
     m_dragFrom = at;
     m_dragLast = at;
     m_wasMoved = false;
+}
+
+bool PlotChart::event(QEvent *event)
+{
+    if (event->type() != QEvent::ToolTip)
+        return QWidget::event(event);
+    const auto *help = static_cast<QHelpEvent *>(event);
+    const QString text = m_marks.textAt(help->pos(), view(), plotArea());
+    if (text.isEmpty())
+        QToolTip::hideText();
+    else
+        QToolTip::showText(help->globalPos(), plainToolTip(text), this);
+    return true;
 }
 
 void PlotChart::mousePressEvent(QMouseEvent *event)

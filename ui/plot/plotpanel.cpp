@@ -23,12 +23,13 @@ constexpr int ListWidth = 264;
 
 } // namespace
 
-PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow &window, QWidget *parent)
+PlotPanel::PlotPanel(const Common &common, QWidget *parent)
     : QFrame(parent)
-    , m_monitor(monitor)
-    , m_sharedTime(window)
-    , m_model(new TraceModel(session, monitor, this))
-    , m_chart(new PlotChart(window, this))
+    , m_monitor(common.monitor)
+    , m_events(common.events)
+    , m_sharedTime(common.window)
+    , m_model(new TraceModel(common.session, common.monitor, common.colors, this))
+    , m_chart(new PlotChart(common.window, this))
     , m_list(new TraceList(*m_model, this))
     , m_figures(new MeasureModel(this))
     , m_table(new MeasureTable(*m_figures, this))
@@ -171,6 +172,11 @@ void PlotPanel::updateList()
 
 void PlotPanel::refreshTraces()
 {
+    PlotMarks marks;
+    marks.log = &m_events;
+    for (const Watch &watch : m_model->needed())
+        marks.devices.insert(watch.device);
+    m_chart->setMarks(marks);
     m_chart->setTraces(m_model->drawn(palette()));
     m_isMeasured = false;
 }

@@ -13,10 +13,12 @@ class QToolButton;
 
 namespace dynascope {
 
+class EventLog;
 class MeasureModel;
 class MeasureTable;
 class PlotChart;
 struct PlotCursors;
+class TraceColors;
 class TraceList;
 class TraceModel;
 
@@ -26,7 +28,15 @@ class PlotPanel : public QFrame
     Q_OBJECT
 
 public:
-    PlotPanel(Session &session, const Monitor &monitor, const TimeWindow &window, QWidget *parent = nullptr);
+    /// What all panels have in common. Outlives them.
+    struct Common {
+        Session &session;
+        const Monitor &monitor;
+        const TimeWindow &window;
+        TraceColors &colors;
+        const EventLog &events;
+    };
+    explicit PlotPanel(const Common &common, QWidget *parent = nullptr);
     ~PlotPanel() override;
 
     TraceModel &model() const { return *m_model; }
@@ -77,6 +87,7 @@ private:
     void fillMenu();
 
     const Monitor &m_monitor;
+    const EventLog &m_events;
     const TimeWindow &m_sharedTime;
     TimeWindow m_ownTime;
     bool m_hasOwnTime = false;

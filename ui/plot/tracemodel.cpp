@@ -8,8 +8,8 @@
 
 namespace dynascope {
 
-TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent)
-    : QAbstractListModel(parent), m_session(session), m_monitor(monitor)
+TraceModel::TraceModel(Session &session, const Monitor &monitor, TraceColors &colors, QObject *parent)
+    : QAbstractListModel(parent), m_session(session), m_monitor(monitor), m_colors(colors)
 {
     connect(&session, &Session::deviceAboutToBeRemoved, this, &TraceModel::onDeviceGone);
     connect(&session, &Session::deviceAdded, this, &TraceModel::onDeviceBack);
@@ -48,14 +48,6 @@ std::set<Watch> TraceModel::needed() const
             all.insert(trace.key.derivation.other);
     }
     return all;
-}
-
-int TraceModel::freeColor() const
-{
-    int color = 0;
-    while (std::ranges::find(m_traces, color, &Trace::color) != m_traces.end())
-        ++color;
-    return color;
 }
 
 /// What the device says of itself and of the field: names, and how raw values become physical ones.
@@ -106,7 +98,7 @@ bool TraceModel::add(const TraceKey &key)
     Device *device = m_session.device(key.watch.device);
     Trace trace;
     trace.key = key;
-    trace.color = freeColor();
+    trace.color = m_colors.take(key);
     if (key.isDerived() && key.derivation.kind != Derivation::Kind::Scaled)
         trace.derived = std::make_shared<DerivedHistory>(key.derivation);
     describe(trace);
@@ -119,6 +111,7 @@ bool TraceModel::add(const TraceKey &key)
 
 void TraceModel::remove(int row)
 {
+    m_colors.release(this->key(row));
     const DeviceKey key = watch(row).device;
     beginRemoveRows({}, row, row);
     m_traces.erase(m_traces.begin() + row);
@@ -136,6 +129,7 @@ void TraceModel::setVisible(int row, bool visible)
 void TraceModel::setColorIndex(int row, int color)
 {
     m_traces[static_cast<std::size_t>(row)].color = color;
+    m_colors.remember(key(row), color);
     emit dataChanged(index(row), index(row), {ColorIndexRole});
 }
 
@@ -196,6 +190,7 @@ std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
         data.label = trace.device + QStringLiteral(" · ") + trace.field;
         data.unit = trace.unit;
         data.color = traceColor(trace.color, palette);
+        data.dash = dashOf(trace.color);
         data.visible = trace.visible;
         data.dimmed = trace.gone || isSilent(trace);
         traces.push_back(std::move(data));

@@ -4,6 +4,7 @@
 #include "core/session/derived.h"
 #include "core/session/monitor.h"
 #include "core/table/units.h"
+#include "ui/plot/tracecolors.h"
 #include "ui/plot/tracedata.h"
 
 #include <QAbstractListModel>
@@ -27,7 +28,8 @@ public:
         NoteRole, ///< why, in a word or two
     };
 
-    TraceModel(Session &session, const Monitor &monitor, QObject *parent = nullptr);
+    /// All outlive this.
+    TraceModel(Session &session, const Monitor &monitor, TraceColors &colors, QObject *parent = nullptr);
 
     bool add(const TraceKey &key); ///< false if it is there already, or names nothing
     void remove(int row);
@@ -47,6 +49,7 @@ public:
         int decimals = 0;
         QString unit;
     };
+    Linear scaleOf(int row) const; ///< of its own raw values
     const Linear &sourceScale(int row) const { return m_traces[static_cast<std::size_t>(row)].source; }
     bool isVisible(int row) const { return m_traces[static_cast<std::size_t>(row)].visible; }
     void setVisible(int row, bool visible);
@@ -59,6 +62,7 @@ public:
     std::vector<TraceData> drawn(const QPalette &palette) const;
     /// Makes what is derived of the samples that have come. The time of the first that is new; nothing where none is.
     std::optional<LineTime> derive(std::size_t &budget);
+    const History *history(int row) const { return historyOf(m_traces[static_cast<std::size_t>(row)]); }
     /// For who may outlive the row; nullptr: the monitor's is the one.
     std::shared_ptr<const DerivedHistory> derivedHistory(int row) const;
     /// Looks at the newest values, and announces those whose text changed.
@@ -98,10 +102,10 @@ private:
     void onDeviceGone(Device *device);
     void onDeviceBack(Device *device);
     void follow(Device *device);
-    int freeColor() const;
 
     Session &m_session;
     const Monitor &m_monitor;
+    TraceColors &m_colors;
     UnitPreferences m_units;
     std::vector<Trace> m_traces;
 };

@@ -100,6 +100,12 @@ void TraceModel::measure(Trace &trace) const
     }
 }
 
+TraceModel::Linear TraceModel::scaleOf(int row) const
+{
+    const Trace &trace = m_traces[static_cast<std::size_t>(row)];
+    return {trace.scale, trace.offset, trace.decimals, trace.unit};
+}
+
 bool TraceModel::areComparable(const Watch &one, const Watch &other) const
 {
     const Device *first = m_session.device(one.device);
