@@ -148,21 +148,34 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
 {
     if (content == m_content && !m_pixmap.isNull())
         return m_pixmap;
-    if (m_pixmap.isNull() || content.palette != m_content.palette || content.font != m_content.font)
+    m_pixmap = QPixmap(content.size * content.pixelRatio);
+    m_pixmap.setDevicePixelRatio(content.pixelRatio);
+    QPainter painter(&m_pixmap);
+    draw(painter, content);
+    return m_pixmap;
+}
+
+void ChartFrame::paint(QPainter &painter, const Content &content)
+{
+    m_pixmap = {}; // it was of other content, perhaps
+    draw(painter, content);
+}
+
+void ChartFrame::draw(QPainter &painter, const Content &content)
+{
+    if (!m_isColored || content.palette != m_content.palette || content.font != m_content.font)
         applyColors(content);
+    m_isColored = true;
     m_content = content;
     m_chart->resize(content.size);
     m_chart->setPlotArea(plotArea(content));
     applyRanges(content);
     m_chart->layout()->activate();
 
-    m_pixmap = QPixmap(content.size * content.pixelRatio);
-    m_pixmap.setDevicePixelRatio(content.pixelRatio);
-    m_pixmap.fill(content.palette.color(QPalette::Window));
-    QPainter painter(&m_pixmap);
     const QRectF area = plotArea(content);
-    painter.fillRect(area, content.palette.color(QPalette::Base));
     const QRectF whole(QPointF(), content.size);
+    painter.fillRect(whole, content.palette.color(QPalette::Window));
+    painter.fillRect(area, content.palette.color(QPalette::Base));
     m_scene->render(&painter, whole, whole);
     painter.setFont(content.font);
     const ThemeColors &theme = colors(content.palette);
@@ -172,7 +185,6 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
     paintTimes(painter, content, niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps));
     for (int axis = 0; axis < MostAxes; ++axis)
         paintValues(painter, content, axis);
-    return m_pixmap;
 }
 
 void ChartFrame::paintTimes(QPainter &painter, const Content &content, double step)

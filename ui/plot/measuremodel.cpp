@@ -103,8 +103,9 @@ void MeasureModel::show()
     }
     for (std::size_t i = 0; i < m_rows.size(); ++i) {
         std::array<QString, ColumnCount> texts = textsOf(m_rows[i]);
-        if (texts == m_rows[i].texts)
+        if (texts == m_rows[i].texts && m_rows[i].shownColor == m_rows[i].color)
             continue;
+        m_rows[i].shownColor = m_rows[i].color;
         m_rows[i].texts = std::move(texts);
         const int row = static_cast<int>(i);
         emit dataChanged(index(row, 0), index(row, ColumnCount - 1));

@@ -34,7 +34,7 @@ private:
     struct Row {
         SpanMeasure measure;
         QString label, unit;
-        QColor color;
+        QColor color, shownColor;
         double scale = 1, offset = 0;
         int decimals = 0;
         std::optional<double> ends[2];

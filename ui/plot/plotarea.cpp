@@ -7,6 +7,7 @@
 #include "ui/plot/plotsaver.h"
 #include "ui/plot/tracemodel.h"
 
+#include <QMenu>
 #include <QSplitter>
 #include <QVBoxLayout>
 
@@ -84,6 +85,10 @@ void PlotArea::connectBar()
         showNewest();
     });
     connect(m_bar, &PlotBar::clearRequested, this, &PlotArea::clear);
+    for (QAction *action : m_bar->saveActions())
+        addAction(action); // their keys work though they are in a menu
+    connect(&m_bar->layouts(), &QMenu::aboutToShow, this, [this] { fillLayouts(m_bar->layouts()); });
+    connect(m_bar, &PlotBar::drawingRequested, this, &PlotArea::saveSvg);
     connect(m_bar, &PlotBar::csvRequested, this, &PlotArea::saveCsvFile);
     connect(m_bar, &PlotBar::pictureRequested, this, [this] { m_saver->askForPicture(m_splitter->grab()); });
     connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
@@ -340,23 +345,6 @@ void PlotArea::clear()
     setLive(true);
     for (PlotPanel *panel : m_panels)
         panel->model().refreshValues();
-}
-
-void PlotArea::saveCsvFile()
-{
-    // The view as it is now: a live one moves on while the person chooses a name.
-    const TimeView view = m_present->chart().view();
-    const auto traces = [this] {
-        std::vector<CsvSave::Trace> all;
-        for (const PlotPanel *panel : m_panels) {
-            const std::vector<TraceData> drawn = panel->model().drawn(palette());
-            for (std::size_t row = 0; row < drawn.size(); ++row)
-                all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row],
-                    panel->model().derivedHistory(static_cast<int>(row))});
-        }
-        return all;
-    };
-    m_saver->askForCsv(traces, view.from(), view.to());
 }
 
 } // namespace dynascope

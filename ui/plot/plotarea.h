@@ -15,6 +15,7 @@
 #include <QWidget>
 
 class QAction;
+class QMenu;
 class QSplitter;
 
 namespace dynascope {
@@ -60,6 +61,9 @@ public:
     QByteArray saveState() const;
     /// Traces of devices that aren't there yet come back when these are found.
     void restoreState(const QByteArray &state);
+    PlotState state() const;
+    void apply(const PlotState &state); ///< in place of what is shown
+    void fillLayouts(QMenu &menu);
 
 signals:
     void tracesChanged();
@@ -95,6 +99,9 @@ private:
     void fit();
     void saveCsvFile();
     void restoreTraces();
+    void restore(const PlotState &state);
+    void askForLayoutName();
+    void saveSvg();
 
     Session &m_session;
     Monitor &m_monitor;
@@ -113,6 +120,7 @@ private:
     QTimer m_frames;
     QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;
+    std::optional<PlotState::Trace> m_waitingTrigger;
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };
 

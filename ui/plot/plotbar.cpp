@@ -118,22 +118,37 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
     addSeparator();
     QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
     connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
-    QAction *csv =
-        add(QStringLiteral("csv"), tr("Save plots as CSV…"), tr("Save the samples in sight as a CSV file (Ctrl+S)"));
-    csv->setObjectName(QStringLiteral("saveCsvAction"));
-    csv->setShortcut(QKeySequence(QStringLiteral("Ctrl+S")));
-    connect(csv, &QAction::triggered, this, &PlotBar::csvRequested);
-    QAction *picture = add(QStringLiteral("camera"), tr("Save plots as a picture…"),
-        tr("Save the plots as a PNG picture (Ctrl+Shift+S)"));
-    picture->setObjectName(QStringLiteral("savePictureAction"));
-    picture->setShortcut(QKeySequence(QStringLiteral("Ctrl+Shift+S")));
-    connect(picture, &QAction::triggered, this, &PlotBar::pictureRequested);
+    auto *saveMenu = new QMenu(this);
+    const auto addSave = [this, saveMenu](const char *name, const QString &iconName, const QString &text, const QString &tip,
+                             const QString &shortcut) {
+        QAction *action = saveMenu->addAction(icon(iconName), text);
+        action->setObjectName(QLatin1String(name));
+        action->setToolTip(tip);
+        action->setAutoRepeat(false);
+        action->setShortcut(QKeySequence(shortcut));
+        m_save.push_back(action);
+        return action;
+    };
+    connect(addSave("saveCsvAction", QStringLiteral("csv"), tr("Save plots as CSV…"),
+                tr("Save the samples in sight as a CSV file (Ctrl+S)"), QStringLiteral("Ctrl+S")),
+        &QAction::triggered, this, &PlotBar::csvRequested);
+    connect(addSave("savePictureAction", QStringLiteral("camera"), tr("Save plots as a picture…"),
+                tr("Save the plots as a PNG picture (Ctrl+Shift+S)"), QStringLiteral("Ctrl+Shift+S")),
+        &QAction::triggered, this, &PlotBar::pictureRequested);
+    connect(addSave("saveDrawingAction", QStringLiteral("chart"), tr("Save plots as SVG…"),
+                tr("Save the plots as a drawing that stays sharp at any size"), {}),
+        &QAction::triggered, this, &PlotBar::drawingRequested);
+    addMenu(QStringLiteral("save"), tr("Save"), tr("Save what is seen: samples as CSV, a picture, a drawing"), *saveMenu);
+    m_layouts = new QMenu(this);
+    addMenu(QStringLiteral("layouts"), tr("Layouts"),
+        tr("Arrangements of the plots by name: panels, traces, axes, trigger"), *m_layouts);
     addSeparator();
     QAction *panel =
         add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
-    m_save = {csv, picture};
-    m_needTraces = {m_pause, m_cursors, m_trigger, clear, csv, picture};
+    m_needTraces = {m_pause, m_cursors, m_trigger, clear};
+    for (QAction *action : m_save)
+        m_needTraces.append(action);
     setHasTraces(false);
 }
 
@@ -142,6 +157,15 @@ QAction *PlotBar::add(const QString &iconName, const QString &text, const QStrin
     QAction *action = addAction(icon(iconName), text);
     action->setToolTip(tip);
     action->setAutoRepeat(false);
+    return action;
+}
+
+QAction *PlotBar::addMenu(const QString &iconName, const QString &text, const QString &tip, QMenu &menu)
+{
+    QAction *action = add(iconName, text, tip);
+    action->setMenu(&menu);
+    if (auto *button = qobject_cast<QToolButton *>(widgetForAction(action)))
+        button->setPopupMode(QToolButton::InstantPopup);
     return action;
 }
 

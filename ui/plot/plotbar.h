@@ -7,6 +7,8 @@
 #include <chrono>
 #include <vector>
 
+class QMenu;
+
 namespace dynascope {
 
 /// Whole seconds; the arrows go to the next round number.
@@ -45,6 +47,7 @@ public:
     void setTrigger(bool on);
     void setHasTraces(bool has);
     const std::vector<QAction *> &saveActions() const { return m_save; }
+    QMenu &layouts() const { return *m_layouts; } ///< filled by who knows them
 
 signals:
     void liveChanged(bool live);
@@ -56,13 +59,16 @@ signals:
     void clearRequested();
     void csvRequested();
     void pictureRequested();
+    void drawingRequested();
     void panelRequested();
 
 private:
     QAction *add(const QString &iconName, const QString &text, const QString &tip);
+    QAction *addMenu(const QString &iconName, const QString &text, const QString &tip, QMenu &menu);
     void showLive(bool live);
 
     SpanBox *m_span;
+    QMenu *m_layouts;
     QAction *m_pause;
     QAction *m_autoscale;
     QAction *m_cursors;

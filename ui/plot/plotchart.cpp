@@ -7,6 +7,7 @@
 
 #include <QEvent>
 #include <QPainter>
+#include <QPainterPath>
 
 #include <algorithm>
 #include <cmath>
@@ -182,6 +183,48 @@ void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
         paintIcon(&painter, icon, QStringLiteral("chart"), color);
 }
 
+/// From the lowest to the highest value of each column, and on to the next: no more than what is seen, however many
+/// samples there are.
+void PlotChart::paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const
+{
+    painter.save();
+    painter.setClipRect(area);
+    painter.setBrush(Qt::NoBrush);
+    std::vector<History::Column> columns(static_cast<std::size_t>(view.columns));
+    for (auto trace = m_traces.rbegin(); trace != m_traces.rend(); ++trace) {
+        if (!trace->isDrawn())
+            continue;
+        trace->history->columns(view.from(), view.to(), columns);
+        const AxisRange &range = m_scales.range(trace->unit);
+        const auto y = [&](std::int32_t raw) {
+            return area.bottom() - (trace->value(raw) - range.minimum) / range.span() * area.height();
+        };
+        QPainterPath path;
+        for (std::size_t i = 0; i < columns.size() && view.step * (view.firstColumn + static_cast<std::int64_t>(i)) <= view.until; ++i) {
+            const History::Column &column = columns[i];
+            if (column.isEmpty)
+                continue;
+            const qreal x = area.left() + (static_cast<double>(i) + 0.5) / view.columns * area.width();
+            if (path.isEmpty() || column.gapBefore)
+                path.moveTo(x, y(column.first));
+            else
+                path.lineTo(x, y(column.first));
+            if (column.minimum != column.maximum) {
+                path.lineTo(x, y(column.minimum));
+                path.lineTo(x, y(column.maximum));
+                path.lineTo(x, y(column.last));
+            }
+        }
+        QPen pen(trace->color, 1.5, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
+        static constexpr std::array Styles{Qt::SolidLine, Qt::DashLine, Qt::DotLine, Qt::DashDotLine};
+        pen.setStyle(Styles[static_cast<std::size_t>(std::clamp(trace->dash, 0, 3))]);
+        painter.setPen(pen);
+        painter.setOpacity(trace->dimmed ? 0.35 : 1);
+        painter.drawPath(path);
+    }
+    painter.restore();
+}
+
 /// The level, and, where the view stands, the moment.
 void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const
 {
@@ -226,12 +269,15 @@ void PlotChart::paintEvent(QPaintEvent *)
     m_scales.setMostSteps(std::max(2, static_cast<int>(area.height() / StepHeight)));
     m_scales.fit(m_traces, now, m_newest);
     QPainter painter(this);
-    painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
+    if (m_isVector)
+        m_frame.paint(painter, frameContent(now));
+    else
+        painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
     if (m_traces.empty()) {
         painter.setPen(colors(palette()).dimmed);
         paintEmpty(painter, area);
     } else {
-        paintTraces(painter, now, area);
+        m_isVector ? paintPaths(painter, now, area) : paintTraces(painter, now, area);
     }
     m_marks.paint(painter, now, area, palette());
     paintTrigger(painter, now, area);

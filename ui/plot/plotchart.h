@@ -37,6 +37,7 @@ public:
     void setCursors(const PlotCursors &cursors);
     void setTrigger(const TriggerMark &trigger);
     void setMarks(const PlotMarks &marks) { m_marks = marks; }
+    void setVector(bool on) { m_isVector = on; } ///< painted in lines, not in pixels: for a drawing
     /// Room for labels left and right: kept alike by charts below each other, so that their times stand in line.
     LabelColumns labelColumns() const;
     void setLabelRoom(LabelColumns room);
@@ -81,6 +82,7 @@ private:
     void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
     void paintBox(QPainter &painter, const QRectF &area) const;
+    void paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const;
     void paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const;
     int axisAt(const QPointF &at) const; ///< whose labels are there; −1: none's
     std::vector<PlotScales::Scale *> scalesOf(int axis); ///< −1: all
@@ -104,7 +106,7 @@ private:
     QString m_emptyText;
     int m_emphasized = -1;
     LabelColumns m_labelRoom;
-    bool m_marked = false, m_showFocus = false; ///< the focus came by key
+    bool m_isVector = false, m_marked = false, m_showFocus = false; ///< the focus came by key
     PlotCursors m_cursors;
     TriggerMark m_trigger;
     PlotMarks m_marks;

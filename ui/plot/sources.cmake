@@ -8,6 +8,7 @@ target_sources(dynascope_ui PRIVATE
     plot/measuretable.cpp plot/measuretable.h
     plot/plotarea.cpp plot/plotarea.h
     plot/plotarea_cursors.cpp
+    plot/plotarea_save.cpp
     plot/plotarea_state.cpp
     plot/plotarea_times.cpp
     plot/plotbar.cpp plot/plotbar.h
@@ -15,6 +16,7 @@ target_sources(dynascope_ui PRIVATE
     plot/plotchart_input.cpp
     plot/plotcursors.cpp plot/plotcursors.h
     plot/plotexport.cpp plot/plotexport.h
+    plot/plotlayouts.cpp plot/plotlayouts.h
     plot/plotmarks.cpp plot/plotmarks.h
     plot/plotpanel.cpp plot/plotpanel.h
     plot/plotreadout.cpp plot/plotreadout.h
