@@ -245,7 +245,7 @@ void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRec
     }
     const QFontMetricsF metrics(painter.font());
     const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, area.width() - 16);
-    QRectF box(area.left() + 4, area.bottom() - metrics.height() - 6, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
+    const QRectF box(area.left() + 4, area.top() + PlotMarks::Size + 4, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
     painter.fillRect(box, palette().color(QPalette::Base));
     painter.setPen(colors(palette()).dimmed);
     painter.drawText(box, Qt::AlignCenter, text);
