@@ -168,12 +168,9 @@ void ChartFrame::draw(QPainter &painter, const Content &content)
     m_isColored = true;
     m_content = content;
     m_chart->resize(content.size);
-    if (m_chart->plotArea() != plotArea(content)) {
-        m_chart->setPlotArea(plotArea(content));
-        // An axis whose range stays the same would leave its grid where it was.
-        for (QValueAxis *axis : {m_time, m_values[0], m_values[1]})
-            axis->setRange(0, axis->tickInterval());
-    }
+    m_chart->setPlotArea(plotArea(content));
+    m_chart->layout()->invalidate();
+    m_chart->layout()->activate();
     applyRanges(content);
     m_chart->layout()->activate();
 

@@ -244,7 +244,7 @@ void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRec
             painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     }
     const QFontMetricsF metrics(painter.font());
-    const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, area.width() - 16);
+    const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, std::max(40.0, area.width() - 160));
     const QRectF box(area.left() + 4, area.top() + PlotMarks::Size + 4, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
     painter.fillRect(box, palette().color(QPalette::Base));
     painter.setPen(colors(palette()).dimmed);
