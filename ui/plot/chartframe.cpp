@@ -168,9 +168,13 @@ void ChartFrame::draw(QPainter &painter, const Content &content)
     m_isColored = true;
     m_content = content;
     m_chart->resize(content.size);
-    m_chart->setPlotArea(plotArea(content));
-    m_chart->layout()->invalidate();
-    m_chart->layout()->activate();
+    if (const QRectF now = plotArea(content); now != m_area) {
+        m_area = now;
+        m_chart->setPlotArea(now);
+        // Now, or an axis whose range stays the same would leave its grid where it was.
+        m_chart->layout()->invalidate();
+        m_chart->layout()->activate();
+    }
     applyRanges(content);
     m_chart->layout()->activate();
 

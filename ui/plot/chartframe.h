@@ -78,6 +78,7 @@ private:
     Content m_content;
     QPixmap m_pixmap;
     bool m_isColored = false;
+    QRectF m_area; ///< as laid out last
     std::unique_ptr<QGraphicsScene> m_scene;
     QChart *m_chart; ///< the scene's, as the axes and series are the chart's
     QValueAxis *m_time;
