@@ -132,7 +132,7 @@ void PlotChart::mousePressEvent(QMouseEvent *event)
     const QRectF area = plotArea();
     const int cursor = m_cursors.near(at.x(), view(), area);
     const bool isInside = area.contains(at);
-    if (isInside && event->modifiers().testFlag(Qt::ShiftModifier)) {
+    if (isInside && !m_traces.empty() && event->modifiers().testFlag(Qt::ShiftModifier)) {
         if (m_window->isLive())
             emit pauseRequested();
         beginDrag(Drag::Box, at);
