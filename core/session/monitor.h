@@ -3,6 +3,7 @@
 
 #include "core/session/histories.h"
 #include "core/session/session.h"
+#include "core/session/watch.h"
 
 #include <map>
 #include <set>

@@ -15,9 +15,11 @@ target_sources(dynascope_core PRIVATE
     session/commissioning/fromprofile.cpp session/commissioning/fromprofile.h
     session/commissioning/identify.cpp session/commissioning/identify.h
     session/consequences.cpp session/consequences.h
+    session/derived.cpp session/derived.h
     session/device.cpp session/device.h
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
+    session/eventlog.cpp session/eventlog.h
     session/groupwrite.cpp session/groupwrite.h
     session/histories.cpp session/histories.h
     session/history.cpp session/history.h
@@ -29,6 +31,7 @@ target_sources(dynascope_core PRIVATE
     session/history/openchunk.h
     session/history/packedchunk.cpp session/history/packedchunk.h
     session/history/packedtimes.cpp session/history/packedtimes.h
+    session/historymark.h
     session/journal/journal.cpp session/journal/journal.h
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h
@@ -77,7 +80,9 @@ target_sources(dynascope_core PRIVATE
     session/settings/settingsorder.cpp session/settings/settingsorder.h
     session/settings/settingsplan.cpp session/settings/settingsplan.h
     session/settingscommands.cpp session/settingscommands.h
+    session/spanmeasure.cpp session/spanmeasure.h
     session/stopcontrol.cpp session/stopcontrol.h
+    session/trigger.cpp session/trigger.h
     session/volatilespan.cpp session/volatilespan.h
     session/watch.h
     session/watchplan.cpp session/watchplan.h

@@ -67,7 +67,7 @@ struct PlotBench {
     TraceList &list(std::size_t panel = 0) const { return *area.panels()[panel]->findChild<TraceList *>(); }
     QAction *action(const QString &text) const
     {
-        for (QAction *action : area.findChild<PlotBar *>()->actions()) {
+        for (QAction *action : area.findChild<PlotBar *>()->findChildren<QAction *>()) {
             if (action->text() == text)
                 return action;
         }

@@ -2,10 +2,13 @@
 #include "tests/support/uitest.h"
 #include "tests/ui/plotfixture.h"
 #include "ui/plot/csvsave.h"
+#include "ui/plot/plotlayouts.h"
 #include "ui/plot/plotstate.h"
 
 #include <QBuffer>
 #include <QFileDialog>
+#include <QMenu>
+#include <QSettings>
 #include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTimer>
@@ -228,6 +231,94 @@ private slots:
         QVERIFY(!bench.model(1).isVisible(0));
         bench.area.restoreState("nonsense");
         QCOMPARE(bench.area.panels().size(), std::size_t(2));
+    }
+
+    void looksColoursAndTriggerComeBack()
+    {
+        QByteArray state;
+        {
+            PlotBench bench;
+            const Watch position = bench.watch(bench.first, "Present Position");
+            bench.area.addTrace(bench.watch(bench.second, "Present Load"));
+            bench.area.addTrace(position);
+            bench.area.removeTrace(bench.watch(bench.second, "Present Load"));
+            bench.area.addPanel()->setOwnTime(true);
+            bench.chart(0).setAxisRange(QStringLiteral("°"), 10, 50);
+            TriggerChoice choice;
+            choice.trace = position;
+            choice.level = 33;
+            choice.settings.mode = TriggerSettings::Mode::Single;
+            bench.area.arm(choice);
+            state = bench.area.saveState();
+        }
+        PlotBench bench;
+        bench.area.restoreState(state);
+        const AxisRange range = bench.chart(0).scales().range(QStringLiteral("°"));
+        QCOMPARE(range.minimum, 10.0);
+        QCOMPARE(range.maximum, 50.0);
+        QVERIFY(!bench.chart(0).isAutoscale());
+        QVERIFY(!bench.area.panels()[0]->hasOwnTime() && bench.area.panels()[1]->hasOwnTime());
+        QCOMPARE(bench.model(0).colorIndex(0), 1);
+        QVERIFY(!bench.area.trigger().isOn()); // it waits for a person
+        QVERIFY(bench.area.trigger().choice().trace == TraceKey(bench.watch(bench.first, "Present Position")));
+        QCOMPARE(bench.area.trigger().choice().level, 33.0);
+        QVERIFY(bench.area.saveState() == state);
+        QVERIFY(!PlotState::fromBytes("{\"version\":99,\"panels\":[[]]}")); // of a later program
+        QVERIFY(PlotState::fromBytes("{\"version\":2,\"panels\":[[]],\"looks\":[{\"axes\":[{\"min\":5,\"max\":1},7]},3],"
+                                     "\"colors\":4,\"trigger\":[]}"));
+    }
+
+    void layoutsAreKeptByName()
+    {
+        PlotBench bench;
+        bench.area.addTrace(bench.watch(bench.first, "Present Position"));
+        bench.area.addPanel();
+        bench.area.addTrace(bench.watch(bench.second, "Present Load"));
+        QVERIFY(plotlayouts::store(QStringLiteral("  Both "), bench.area.state()));
+        QVERIFY(!plotlayouts::store(QStringLiteral("  "), bench.area.state()));
+        bench.area.closePanel(bench.area.panels()[1]);
+        bench.area.addTrace(bench.watch(bench.first, "Present Current"));
+        QCOMPARE(plotlayouts::load().size(), std::size_t(1));
+        bench.area.apply(plotlayouts::load().front().state);
+        QCOMPARE(bench.area.panels().size(), std::size_t(2));
+        QVERIFY(bench.model(0).watches() == std::vector{bench.watch(bench.first, "Present Position")});
+        QVERIFY(bench.model(1).watches() == std::vector{bench.watch(bench.second, "Present Load")});
+        QVERIFY(!bench.monitor.isWatched(bench.watch(bench.first, "Present Current")));
+        // Of another robot, and on an adapter that is called otherwise today.
+        PlotState elsewhere = bench.area.state();
+        QVERIFY(plotlayouts::fits(elsewhere, bench.session.devices()));
+        for (auto &panel : elsewhere.panels)
+            panel.front().line = QStringLiteral("/dev/ttyUSB7");
+        QVERIFY(plotlayouts::found(elsewhere, bench.session.devices()).panels == bench.area.state().panels);
+        for (auto &panel : elsewhere.panels)
+            panel.front().id = 200;
+        QVERIFY(!plotlayouts::fits(elsewhere, bench.session.devices()));
+        QVERIFY(plotlayouts::store(QStringLiteral("Another"), elsewhere));
+        QMenu menu;
+        bench.area.fillLayouts(menu);
+        QCOMPARE(menu.actions()[0]->text(), QStringLiteral("Both"));
+        QCOMPARE(menu.actions()[1]->menu()->actions()[0]->text(), QStringLiteral("Another"));
+        plotlayouts::remove(QStringLiteral("Both"));
+        plotlayouts::remove(QStringLiteral("Another"));
+        QVERIFY(plotlayouts::load().empty());
+        QSettings().setValue(QStringLiteral("plots/layouts"), QByteArray("[{\"name\":\"x\"},5,{\"name\":\"y\",\"state\":{\"panels\":[[]]}}]"));
+        QCOMPARE(plotlayouts::load().size(), std::size_t(1)); // the one that is whole
+        QSettings().remove(QStringLiteral("plots/layouts"));
+    }
+
+    void plotsAreSavedAsADrawing()
+    {
+        PlotBench bench;
+        const Watch position = bench.watch(bench.first, "Present Position");
+        bench.area.addTrace(position);
+        for (int i = 0; i < 20'000; ++i)
+            bench.sample(position, 1ms * i, 1024 + i % 700);
+        QTRY_VERIFY(bench.chart().view().to() > 19s);
+        const QString path = save(bench, QStringLiteral("Save plots as SVG…"), QStringLiteral("plot.svg"));
+        const QString svg = contentOf(path);
+        QVERIFY(svg.contains(QStringLiteral("Present Position")));
+        QVERIFY(svg.contains(bench.chart().traces().front().color.name(), Qt::CaseInsensitive)); // a path of its own
+        QVERIFY2(svg.size() < 400'000, qPrintable(QString::number(svg.size()))); // columns, not samples
     }
 
     void whatWaitsForAClosedPanelGoesWithIt()

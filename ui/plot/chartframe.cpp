@@ -66,16 +66,11 @@ QString labelText(double value, int decimals)
     return isZero ? QString::number(0.0, 'f', decimals) : text;
 }
 
-qreal columnWidth(const QFont &font)
-{
-    return QFontMetricsF(font).horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
-}
-
 /// As many as leave the traces room; one always.
 int rightColumns(const ChartFrame::Content &content)
 {
     constexpr int LeastPlot = 110;
-    const qreal column = columnWidth(content.font);
+    const qreal column = ChartFrame::columnWidth(content.font);
     const qreal free = content.size.width() - content.room.left * column - LeastPlot;
     return std::min(content.room.right, std::max(1, static_cast<int>(free / column)));
 }
@@ -108,6 +103,11 @@ ChartFrame::ChartFrame() : m_scene(std::make_unique<QGraphicsScene>()), m_chart(
 }
 
 ChartFrame::~ChartFrame() = default;
+
+qreal ChartFrame::columnWidth(const QFont &font)
+{
+    return QFontMetricsF(font).horizontalAdvance(QStringLiteral("-0000.00")) + Margin;
+}
 
 QRectF ChartFrame::plotArea(const Content &content)
 {
@@ -148,21 +148,40 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
 {
     if (content == m_content && !m_pixmap.isNull())
         return m_pixmap;
-    if (m_pixmap.isNull() || content.palette != m_content.palette || content.font != m_content.font)
+    m_pixmap = QPixmap(content.size * content.pixelRatio);
+    m_pixmap.setDevicePixelRatio(content.pixelRatio);
+    QPainter painter(&m_pixmap);
+    draw(painter, content);
+    return m_pixmap;
+}
+
+void ChartFrame::paint(QPainter &painter, const Content &content)
+{
+    m_pixmap = {}; // it was of other content, perhaps
+    draw(painter, content);
+}
+
+void ChartFrame::draw(QPainter &painter, const Content &content)
+{
+    if (!m_isColored || content.palette != m_content.palette || content.font != m_content.font)
         applyColors(content);
+    m_isColored = true;
     m_content = content;
     m_chart->resize(content.size);
-    m_chart->setPlotArea(plotArea(content));
+    if (const QRectF now = plotArea(content); now != m_area) {
+        m_area = now;
+        m_chart->setPlotArea(now);
+        // Now, or an axis whose range stays the same would leave its grid where it was.
+        m_chart->layout()->invalidate();
+        m_chart->layout()->activate();
+    }
     applyRanges(content);
     m_chart->layout()->activate();
 
-    m_pixmap = QPixmap(content.size * content.pixelRatio);
-    m_pixmap.setDevicePixelRatio(content.pixelRatio);
-    m_pixmap.fill(content.palette.color(QPalette::Window));
-    QPainter painter(&m_pixmap);
     const QRectF area = plotArea(content);
-    painter.fillRect(area, content.palette.color(QPalette::Base));
     const QRectF whole(QPointF(), content.size);
+    painter.fillRect(whole, content.palette.color(QPalette::Window));
+    painter.fillRect(area, content.palette.color(QPalette::Base));
     m_scene->render(&painter, whole, whole);
     painter.setFont(content.font);
     const ThemeColors &theme = colors(content.palette);
@@ -172,7 +191,6 @@ const QPixmap &ChartFrame::pixmap(const Content &content)
     paintTimes(painter, content, niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps));
     for (int axis = 0; axis < MostAxes; ++axis)
         paintValues(painter, content, axis);
-    return m_pixmap;
 }
 
 void ChartFrame::paintTimes(QPainter &painter, const Content &content, double step)

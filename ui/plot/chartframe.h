@@ -62,11 +62,14 @@ public:
     ~ChartFrame();
 
     const QPixmap &pixmap(const Content &content);
+    void paint(QPainter &painter, const Content &content); ///< the same, straight
     /// Inside the axes, on whole device pixels. Depends on size, font and where there is room for labels, not on
     /// ranges, so it doesn't jump while values do.
     static QRectF plotArea(const Content &content);
+    static qreal columnWidth(const QFont &font); ///< of the labels of one value axis
 
 private:
+    void draw(QPainter &painter, const Content &content);
     void applyColors(const Content &content);
     void applyRanges(const Content &content);
     static void paintTimes(QPainter &painter, const Content &content, double step);
@@ -74,6 +77,8 @@ private:
 
     Content m_content;
     QPixmap m_pixmap;
+    bool m_isColored = false;
+    QRectF m_area; ///< as laid out last
     std::unique_ptr<QGraphicsScene> m_scene;
     QChart *m_chart; ///< the scene's, as the axes and series are the chart's
     QValueAxis *m_time;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "ui/plot/historymark.h"
+#include "core/session/historymark.h"
 #include "ui/plot/tracedata.h"
 
 #include <vector>

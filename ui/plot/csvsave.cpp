@@ -51,9 +51,9 @@ void CsvSave::start(const QString &path, const std::vector<Trace> &traces, LineT
     for (const Trace &trace : traces) {
         if (!trace.look.visible)
             continue;
-        Part part{trace.watch};
+        Part part{trace.watch, trace.derived};
         CsvColumn column = columnOf(trace.look);
-        if (const History *history = m_monitor.history(trace.watch)) {
+        if (const History *history = historyOf(part)) {
             const std::uint64_t begin = history->appended() - history->size();
             part.next = begin + history->indexAt(from);
             part.end = begin + history->indexAt(end);
@@ -63,6 +63,11 @@ void CsvSave::start(const QString &path, const std::vector<Trace> &traces, LineT
         m_work->columns.push_back(std::move(column));
     }
     m_slices.start();
+}
+
+const History *CsvSave::historyOf(const Part &part) const
+{
+    return part.derived ? &part.derived->history() : m_monitor.history(part.watch);
 }
 
 void CsvSave::cancel()
@@ -76,7 +81,7 @@ bool CsvSave::copy(Part &part, CsvColumn &column, std::size_t &room) const
 {
     if (part.next == part.end)
         return true;
-    const History *history = m_monitor.history(part.watch);
+    const History *history = historyOf(part);
     if (!history || history->appended() < part.end)
         return false;
     const std::uint64_t begin = history->appended() - history->size();

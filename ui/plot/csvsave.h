@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/derived.h"
 #include "core/session/monitor.h"
 #include "ui/plot/plotexport.h"
 #include "ui/plot/tracedata.h"
@@ -23,6 +24,7 @@ public:
     struct Trace {
         Watch watch;
         TraceData look; ///< its history is asked of the monitor: it may go meanwhile
+        std::shared_ptr<const DerivedHistory> derived = {}; ///< where it has samples of its own
     };
 
     explicit CsvSave(const Monitor &monitor, QObject *parent = nullptr);
@@ -44,6 +46,7 @@ private:
     /// What is still to be copied of a column, counted among all samples its history ever had.
     struct Part {
         Watch watch;
+        std::shared_ptr<const DerivedHistory> derived;
         std::uint64_t next = 0;
         std::uint64_t end = 0;
     };
@@ -54,6 +57,7 @@ private:
         Result<void> result;
     };
 
+    const History *historyOf(const Part &part) const;
     void copySome();
     bool copy(Part &part, CsvColumn &column, std::size_t &room) const;
     void write();

@@ -7,6 +7,7 @@
 #include "ui/plot/plotsaver.h"
 #include "ui/plot/tracemodel.h"
 
+#include <QMenu>
 #include <QSplitter>
 #include <QVBoxLayout>
 
@@ -23,14 +24,23 @@ constexpr auto ValueInterval = 100ms;
 
 } // namespace
 
-PlotArea::PlotArea(const Workbench &workbench, QWidget *parent) : PlotArea(workbench.session, workbench.monitor, parent)
+PlotArea::PlotArea(const Workbench &workbench, QWidget *parent)
+    : PlotArea(workbench.session, workbench.monitor, workbench.journal, workbench.ramGuard, parent)
 {
 }
 
 PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
+    : PlotArea(session, monitor, nullptr, nullptr, parent)
+{
+}
+
+PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, const RamGuard *guard, QWidget *parent)
     : QWidget(parent)
     , m_session(session)
     , m_monitor(monitor)
+    , m_colors(session)
+    , m_events(new EventLog(session, journal, guard, this))
+    , m_trigger(new PlotTrigger(*m_events, this))
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
     , m_saver(new PlotSaver(monitor, this))
@@ -48,12 +58,14 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, QWidget *parent)
     connect(&m_values, &QTimer::timeout, this, [this] {
         for (PlotPanel *panel : m_panels)
             panel->model().refreshValues();
+        for (PlotPanel *panel : m_panels)
+            panel->showFigures();
     });
     // A device that goes takes its histories along: the charts must let go of them at once.
     connect(&monitor, &Monitor::watchesChanged, this, &PlotArea::refreshAll);
     connect(&session, &Session::deviceAdded, this, &PlotArea::restoreTraces);
     connect(&session, &Session::deviceAdded, this, [this](Device *device) {
-        for (const Watch &watch : traces()) {
+        for (const Watch &watch : needed()) {
             if (watch.device == device->key()) // it is back
                 m_monitor.watch(watch);
         }
@@ -73,10 +85,17 @@ void PlotArea::connectBar()
         showNewest();
     });
     connect(m_bar, &PlotBar::clearRequested, this, &PlotArea::clear);
+    for (QAction *action : m_bar->saveActions())
+        addAction(action); // their keys work though they are in a menu
+    connect(&m_bar->layouts(), &QMenu::aboutToShow, this, [this] { fillLayouts(m_bar->layouts()); });
+    connect(m_bar, &PlotBar::drawingRequested, this, &PlotArea::saveSvg);
     connect(m_bar, &PlotBar::csvRequested, this, &PlotArea::saveCsvFile);
     connect(m_bar, &PlotBar::pictureRequested, this, [this] { m_saver->askForPicture(m_splitter->grab()); });
     connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
+    connect(m_bar, &PlotBar::cursorsChanged, this, &PlotArea::setCursorsOn);
+    connect(m_bar, &PlotBar::triggerChanged, this, &PlotArea::setTriggerOn);
+    connect(m_bar, &PlotBar::triggerSettingsRequested, this, &PlotArea::askForTrigger);
 }
 
 std::vector<QAction *> PlotArea::saveActions() const
@@ -86,16 +105,20 @@ std::vector<QAction *> PlotArea::saveActions() const
 
 PlotPanel *PlotArea::addPanel()
 {
-    auto *panel = new PlotPanel(m_session, m_monitor, m_window, m_splitter);
+    auto *panel = new PlotPanel(PlotPanel::Common{m_session, m_monitor, m_window, m_colors, *m_events}, m_splitter);
     m_splitter->addWidget(panel);
     m_panels.push_back(panel);
     m_present = panel;
-    panel->chart().setAutoscale(m_panels.front()->chart().isAutoscale());
     panel->model().setUnits(m_units);
+    panel->setCursors(m_cursors);
+    panel->setLive(m_window.isLive());
     connect(panel, &PlotPanel::activated, this, [this, panel] { m_present = panel; });
+    connect(panel, &PlotPanel::liveRequested, this, [this] { setLive(true); });
+    connect(panel, &PlotPanel::ownTimeChanged, this, &PlotArea::showNewest);
     connect(panel, &PlotPanel::closeRequested, this, [this, panel] { closePanel(panel); });
     connect(panel, &PlotPanel::removeRequested, this,
-        [this, panel](const std::vector<Watch> &watches) { removeFrom(panel, watches); });
+        [this, panel](const std::vector<TraceKey> &keys) { removeFrom(panel, keys); });
+    connect(panel, &PlotPanel::deriveRequested, this, [this, panel](const TraceKey &key) { addTo(panel, key); });
     connect(panel, &PlotPanel::watchesDropped, this, [this, panel](const std::vector<Watch> &watches) {
         for (const Watch &watch : watches)
             addTo(panel, watch);
@@ -110,16 +133,31 @@ PlotPanel *PlotArea::addPanel()
 void PlotArea::connectChart(PlotPanel *panel)
 {
     PlotChart *chart = &panel->chart();
-    connect(chart, &PlotChart::spanStepped, m_bar, &PlotBar::stepSpan);
-    connect(chart, &PlotChart::zoomed, this, [this](double factor, LineTime around) {
-        m_window.zoom(factor, around);
+    connect(chart, &PlotChart::spanStepped, this, [this, panel](int steps) {
+        if (!panel->hasOwnTime())
+            return m_bar->stepSpan(steps);
+        panel->ownTime().setSpan(SpanBox::stepped(panel->ownTime().span(), steps));
         showNewest();
     });
-    connect(chart, &PlotChart::panned, this, [this](LineTime by) {
-        m_window.pan(by);
+    connect(chart, &PlotChart::pauseRequested, this, [this] { setLive(false); });
+    connect(chart, &PlotChart::zoomed, this, [this, panel](double factor, LineTime around) {
+        standStill();
+        windowOf(panel).zoom(factor, around);
         showNewest();
     });
-    connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::setAutoscale);
+    connect(chart, &PlotChart::panned, this, [this, panel](LineTime by) {
+        standStill();
+        windowOf(panel).pan(by);
+        showNewest();
+    });
+    connect(chart, &PlotChart::timesChosen, this, [this, panel](LineTime from, LineTime to) {
+        standStill();
+        windowOf(panel).show(from, to);
+        showNewest();
+    });
+    connect(chart, &PlotChart::cursorMoved, this, &PlotArea::moveCursor);
+    connect(chart, &PlotChart::cursorsToggled, this, [this] { setCursorsOn(!m_cursors.isOn); });
+    connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::showAutoscale);
     connect(chart, &PlotChart::fitRequested, this, &PlotArea::fit);
 }
 
@@ -127,7 +165,7 @@ void PlotArea::closePanel(PlotPanel *panel)
 {
     if (m_panels.size() < 2)
         return;
-    removeFrom(panel, panel->model().watches());
+    removeFrom(panel, panel->model().keys());
     // What waits is kept per panel: it goes with its own.
     const auto at = std::ranges::find(m_panels, panel);
     if (const auto index = at - m_panels.begin(); index < std::ssize(m_waiting))
@@ -141,17 +179,18 @@ void PlotArea::closePanel(PlotPanel *panel)
         each->setClosable(m_panels.size() > 1);
 }
 
-void PlotArea::addTrace(const Watch &watch)
+void PlotArea::addTrace(const TraceKey &key)
 {
-    if (!shows(watch))
-        addTo(m_present, watch);
+    if (!shows(key))
+        addTo(m_present, key);
 }
 
-void PlotArea::addTo(PlotPanel *panel, const Watch &watch)
+void PlotArea::addTo(PlotPanel *panel, const TraceKey &key)
 {
-    if (!panel->model().add(watch))
+    if (!panel->model().add(key))
         return;
-    m_monitor.watch(watch);
+    for (const Watch &watch : panel->model().needed())
+        m_monitor.watch(watch);
     onTracesChanged();
 }
 
@@ -161,16 +200,20 @@ void PlotArea::removeTrace(const Watch &watch)
         removeFrom(panel, {watch});
 }
 
-void PlotArea::removeFrom(PlotPanel *panel, const std::vector<Watch> &watches)
+void PlotArea::removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys)
 {
+    const std::set<Watch> before = panel->model().needed();
     bool isAnyRemoved = false;
-    for (const Watch &watch : watches) {
-        const int row = panel->model().indexOf(watch);
+    for (const TraceKey &key : keys) {
+        const int row = panel->model().indexOf(key);
         if (row < 0)
             continue;
         panel->model().remove(row);
         isAnyRemoved = true;
-        if (!shows(watch))
+    }
+    const std::set<Watch> still = needed();
+    for (const Watch &watch : before) {
+        if (!still.contains(watch))
             m_monitor.unwatch(watch);
     }
     if (isAnyRemoved)
@@ -179,17 +222,19 @@ void PlotArea::removeFrom(PlotPanel *panel, const std::vector<Watch> &watches)
 
 void PlotArea::onTracesChanged()
 {
-    m_bar->setHasTraces(!traces().empty());
-    if (traces().empty())
+    const bool isEmpty = needed().empty();
+    m_bar->setHasTraces(!isEmpty);
+    if (isEmpty)
         setLive(true);
     refreshAll();
+    showCursors();
     emit tracesChanged();
 }
 
-bool PlotArea::shows(const Watch &watch) const
+bool PlotArea::shows(const TraceKey &key) const
 {
     return std::ranges::any_of(
-        m_panels, [&watch](const PlotPanel *panel) { return panel->model().indexOf(watch) >= 0; });
+        m_panels, [&key](const PlotPanel *panel) { return panel->model().indexOf(key) >= 0; });
 }
 
 std::vector<Watch> PlotArea::traces() const
@@ -200,6 +245,14 @@ std::vector<Watch> PlotArea::traces() const
         all.insert(watches.begin(), watches.end());
     }
     return {all.begin(), all.end()};
+}
+
+std::set<Watch> PlotArea::needed() const
+{
+    std::set<Watch> all;
+    for (const PlotPanel *panel : m_panels)
+        all.merge(panel->model().needed());
+    return all;
 }
 
 void PlotArea::showEvent(QShowEvent *event)
@@ -220,6 +273,9 @@ void PlotArea::hideEvent(QHideEvent *event)
 /// Paints only where something new has come; what is paused stands still anyway.
 void PlotArea::onFrame()
 {
+    derive();
+    lookAtTrigger();
+    measure();
     if (!m_window.isLive())
         return;
     std::uint64_t samples = 0;
@@ -246,25 +302,9 @@ void PlotArea::refreshAll()
 /// All panels end at the same moment, so that what stands above each other happened together.
 void PlotArea::showNewest()
 {
-    LineTime newest{};
-    for (const PlotPanel *panel : m_panels)
-        newest = std::max(newest, panel->newest());
+    const LineTime at = newest();
     for (PlotPanel *panel : m_panels)
-        panel->chart().setNewest(newest);
-}
-
-void PlotArea::setLive(bool live)
-{
-    if (live) {
-        m_window.setLive();
-    } else {
-        LineTime newest{};
-        for (const PlotPanel *panel : m_panels)
-            newest = std::max(newest, panel->newest());
-        m_window.pause(newest);
-    }
-    m_bar->setLive(live);
-    refreshAll();
+        panel->setNewest(at);
 }
 
 void PlotArea::setAutoscale(bool on)
@@ -272,6 +312,12 @@ void PlotArea::setAutoscale(bool on)
     m_bar->setAutoscale(on);
     for (PlotPanel *panel : m_panels)
         panel->chart().setAutoscale(on);
+}
+
+void PlotArea::showAutoscale()
+{
+    m_bar->setAutoscale(
+        std::ranges::all_of(m_panels, [](const PlotPanel *panel) { return panel->chart().isAutoscale(); }));
 }
 
 void PlotArea::setUnits(const UnitPreferences &units)
@@ -294,83 +340,11 @@ void PlotArea::fit()
 void PlotArea::clear()
 {
     m_monitor.clear();
+    m_events->clear();
     m_samplesSeen = 0;
     setLive(true);
     for (PlotPanel *panel : m_panels)
         panel->model().refreshValues();
-}
-
-void PlotArea::saveCsvFile()
-{
-    // The view as it is now: a live one moves on while the person chooses a name.
-    const TimeView view = m_present->chart().view();
-    const auto traces = [this] {
-        std::vector<CsvSave::Trace> all;
-        for (const PlotPanel *panel : m_panels) {
-            const std::vector<TraceData> drawn = panel->model().drawn(palette());
-            for (std::size_t row = 0; row < drawn.size(); ++row)
-                all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row]});
-        }
-        return all;
-    };
-    m_saver->askForCsv(traces, view.from(), view.to());
-}
-
-QByteArray PlotArea::saveState() const
-{
-    PlotState state;
-    state.spanSeconds = m_bar->span();
-    state.autoscale = m_panels.front()->chart().isAutoscale();
-    for (std::size_t i = 0; i < m_panels.size(); ++i) {
-        const TraceModel &model = m_panels[i]->model();
-        std::vector<PlotState::Trace> traces;
-        for (int row = 0; row < model.rowCount(); ++row) {
-            const Device *device = m_session.device(model.watch(row).device);
-            if (!device || !device->line())
-                continue;
-            const Field &field = device->table().fields()[static_cast<std::size_t>(model.watch(row).field)];
-            traces.push_back({device->line()->name(), device->table().modelNumber(), device->id(), field.name,
-                model.colorIndex(row), model.isVisible(row)});
-        }
-        if (i < m_waiting.size())
-            traces.insert(traces.end(), m_waiting[i].begin(), m_waiting[i].end());
-        state.panels.push_back(std::move(traces));
-    }
-    return state.toBytes();
-}
-
-void PlotArea::restoreState(const QByteArray &bytes)
-{
-    const std::optional<PlotState> state = PlotState::fromBytes(bytes);
-    if (!state)
-        return;
-    m_bar->setSpan(state->spanSeconds);
-    setAutoscale(state->autoscale);
-    while (m_panels.size() < state->panels.size())
-        addPanel();
-    m_present = m_panels.front();
-    m_waiting = state->panels;
-    for (Device *device : m_session.devices())
-        restoreTraces(device);
-}
-
-void PlotArea::restoreTraces(Device *device)
-{
-    for (std::size_t i = 0; i < std::min(m_waiting.size(), m_panels.size()); ++i) {
-        std::erase_if(m_waiting[i], [this, i, device](const PlotState::Trace &trace) {
-            if (!trace.fits(*device))
-                return false;
-            const Watch watch{device->key(), device->table().indexOf(trace.field)};
-            addTo(m_panels[i], watch);
-            TraceModel &model = m_panels[i]->model();
-            const int row = model.indexOf(watch);
-            if (row >= 0) {
-                model.setColorIndex(row, trace.color);
-                model.setVisible(row, trace.visible);
-            }
-            return true;
-        });
-    }
 }
 
 } // namespace dynascope

@@ -5,20 +5,26 @@
 #include "core/table/units.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
+#include "ui/plot/plotcursors.h"
 #include "ui/plot/plotstate.h"
+#include "ui/plot/plottrigger.h"
 #include "ui/plot/timewindow.h"
+#include "ui/plot/tracecolors.h"
 
 #include <QTimer>
 #include <QWidget>
 
 class QAction;
+class QMenu;
 class QSplitter;
 
 namespace dynascope {
 
+class Journal;
 class PlotBar;
 class PlotPanel;
 class PlotSaver;
+class RamGuard;
 
 /// One or more plot panels under a common tool bar. Watches what it shows and stops watching what it no longer shows.
 class PlotArea : public QWidget
@@ -27,13 +33,14 @@ class PlotArea : public QWidget
 
 public:
     explicit PlotArea(const Workbench &workbench, QWidget *parent = nullptr);
-    PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< all that it needs
+    PlotArea(Session &session, Monitor &monitor, QWidget *parent = nullptr); ///< without journal
+    PlotArea(Session &session, Monitor &monitor, const Journal *journal, const RamGuard *guard, QWidget *parent);
     ~PlotArea() override;
 
-    void addTrace(const Watch &watch); ///< to the present panel; nothing if it is shown already
+    void addTrace(const TraceKey &key); ///< to the present panel; nothing if it is shown already
     void removeTrace(const Watch &watch);
-    bool shows(const Watch &watch) const;
-    std::vector<Watch> traces() const;
+    bool shows(const TraceKey &key) const;
+    std::vector<Watch> traces() const; ///< those that aren't derived
 
     PlotPanel *addPanel();
     void closePanel(PlotPanel *panel); ///< with its traces; the last one stays
@@ -41,6 +48,12 @@ public:
     const TimeWindow &timeWindow() const { return m_window; }
     void setLive(bool live);
     void setAutoscale(bool on);
+    void setCursorsOn(bool on);
+    PlotTrigger &trigger() const { return *m_trigger; }
+    void arm(const TriggerChoice &choice);
+    void setTriggerOn(bool on);
+    EventLog &events() const { return *m_events; }
+    const PlotCursors &cursors() const { return m_cursors; }
     void setUnits(const UnitPreferences &units); ///< axes, readouts, lists, and what is saved
 
     std::vector<QAction *> saveActions() const; ///< CSV and picture, for a menu
@@ -48,6 +61,9 @@ public:
     QByteArray saveState() const;
     /// Traces of devices that aren't there yet come back when these are found.
     void restoreState(const QByteArray &state);
+    PlotState state() const;
+    void apply(const PlotState &state); ///< in place of what is shown
+    void fillLayouts(QMenu &menu);
 
 signals:
     void tracesChanged();
@@ -60,29 +76,51 @@ protected:
 private:
     void connectBar();
     void connectChart(PlotPanel *panel);
-    void addTo(PlotPanel *panel, const Watch &watch);
-    void removeFrom(PlotPanel *panel, const std::vector<Watch> &watches);
+    TimeWindow &windowOf(PlotPanel *panel);
+    void standStill(); ///< what the trigger shows was moved or zoomed: it stays
+    PlotPanel *triggeringPanel() const;
+    void askForTrigger();
+    void lookAtTrigger();
+    void showTrigger();
+    LineTime newest() const;
+    void addTo(PlotPanel *panel, const TraceKey &key);
+    void removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys);
+    std::set<Watch> needed() const;
+    void derive();
     void onTracesChanged();
     void onFrame();
     void showNewest();
     void refreshAll();
+    void showAutoscale();
+    void showCursors();
+    void moveCursor(int which, LineTime at);
+    void measure();
     void clear();
     void fit();
     void saveCsvFile();
-    void restoreTraces(Device *device);
+    void restoreTraces();
+    void restore(const PlotState &state);
+    void askForLayoutName();
+    void saveSvg();
 
     Session &m_session;
     Monitor &m_monitor;
     TimeWindow m_window;
     UnitPreferences m_units;
+    TraceColors m_colors;
+    EventLog *m_events;
+    PlotTrigger *m_trigger;
+    bool m_isHeld = false; ///< the view stands where the trigger put it
     PlotBar *m_bar;
     QSplitter *m_splitter;
     PlotSaver *m_saver;
     std::vector<PlotPanel *> m_panels; ///< the splitter's
     PlotPanel *m_present = nullptr;    ///< where new traces go
+    PlotCursors m_cursors;
     QTimer m_frames;
     QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;
+    std::optional<PlotState::Trace> m_waitingTrigger;
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };
 

@@ -4,7 +4,10 @@
 #include <QSpinBox>
 #include <QToolBar>
 
+#include <chrono>
 #include <vector>
+
+class QMenu;
 
 namespace dynascope {
 
@@ -17,6 +20,8 @@ public:
     explicit SpanBox(QWidget *parent = nullptr);
 
     void stepBy(int steps) override;
+    /// The round span so many steps away.
+    static std::chrono::seconds stepped(std::chrono::nanoseconds span, int steps);
     QValidator::State validate(QString &text, int &position) const override;
     void fixup(QString &text) const override;
 
@@ -38,25 +43,36 @@ public:
     int span() const { return m_span->value(); }
     void setSpan(int seconds);
     void stepSpan(int steps) { m_span->stepBy(steps); }
+    void setCursors(bool on);
+    void setTrigger(bool on);
     void setHasTraces(bool has);
     const std::vector<QAction *> &saveActions() const { return m_save; }
+    QMenu &layouts() const { return *m_layouts; } ///< filled by who knows them
 
 signals:
     void liveChanged(bool live);
     void spanChanged(int seconds);
     void autoscaleChanged(bool on);
+    void cursorsChanged(bool on);
+    void triggerChanged(bool on);
+    void triggerSettingsRequested();
     void clearRequested();
     void csvRequested();
     void pictureRequested();
+    void drawingRequested();
     void panelRequested();
 
 private:
     QAction *add(const QString &iconName, const QString &text, const QString &tip);
+    QAction *addMenu(const QString &iconName, const QString &text, const QString &tip, QMenu &menu);
     void showLive(bool live);
 
     SpanBox *m_span;
+    QMenu *m_layouts;
     QAction *m_pause;
     QAction *m_autoscale;
+    QAction *m_cursors;
+    QAction *m_trigger;
     std::vector<QAction *> m_save;
     QList<QAction *> m_needTraces;
 };

@@ -5,8 +5,9 @@
 #include "ui/common/theme.h"
 #include "ui/plot/plotreadout.h"
 
-#include <QKeyEvent>
+#include <QEvent>
 #include <QPainter>
+#include <QPainterPath>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,6 @@ namespace dynascope {
 namespace {
 
 constexpr int StepHeight = 44; ///< pixels between value labels, at least
-constexpr int WheelStep = 120;
-constexpr double WheelZoom = 1.25;
 
 double seconds(LineTime time)
 {
@@ -26,7 +25,7 @@ double seconds(LineTime time)
 
 } // namespace
 
-PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent), m_window(window)
+PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent), m_window(&window)
 {
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
@@ -34,6 +33,12 @@ PlotChart::PlotChart(const TimeWindow &window, QWidget *parent) : QWidget(parent
 }
 
 PlotChart::~PlotChart() = default;
+
+void PlotChart::setWindow(const TimeWindow &window)
+{
+    m_window = &window;
+    update();
+}
 
 void PlotChart::setTraces(std::vector<TraceData> traces)
 {
@@ -58,11 +63,29 @@ void PlotChart::setNewest(LineTime newest)
 
 void PlotChart::setAutoscale(bool on)
 {
-    if (on == m_autoscale)
+    m_scales.setByHand(!on);
+    update();
+}
+
+void PlotChart::setAxisRange(const QString &unit, double minimum, double maximum)
+{
+    m_scales.setRange(unit, minimum, maximum);
+    update();
+}
+
+void PlotChart::setCursors(const PlotCursors &cursors)
+{
+    if (cursors == m_cursors)
         return;
-    m_autoscale = on;
-    if (on)
-        m_scales.refit();
+    m_cursors = cursors;
+    update();
+}
+
+void PlotChart::setTrigger(const TriggerMark &trigger)
+{
+    if (trigger == m_trigger)
+        return;
+    m_trigger = trigger;
     update();
 }
 
@@ -111,7 +134,7 @@ QRectF PlotChart::plotArea() const
 
 TimeView PlotChart::view() const
 {
-    return m_window.view(static_cast<int>(std::lround(plotArea().width() * devicePixelRatioF())), m_newest);
+    return m_window->view(static_cast<int>(std::lround(plotArea().width() * devicePixelRatioF())), m_newest);
 }
 
 ChartFrame::Content PlotChart::frameContent(const TimeView &view) const
@@ -137,7 +160,7 @@ void PlotChart::paintTraces(QPainter &painter, const TimeView &view, const QRect
     std::vector<TraceImage::Item> items;
     items.reserve(m_traces.size());
     for (const TraceData &trace : m_traces)
-        items.push_back({&trace, &m_scales.range(trace.unit), 1.5F * ratio});
+        items.push_back({&trace, &m_scales.range(trace.unit), 1.5F * ratio, false, static_cast<int>(std::lround(ratio))});
     if (m_emphasized >= 0 && m_emphasized < static_cast<int>(items.size())) {
         items[static_cast<std::size_t>(m_emphasized)].thickness = 2.5F * ratio;
         items[static_cast<std::size_t>(m_emphasized)].isOnTop = true;
@@ -160,146 +183,114 @@ void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
         paintIcon(&painter, icon, QStringLiteral("chart"), color);
 }
 
+/// From the lowest to the highest value of each column, and on to the next: no more than what is seen, however many
+/// samples there are.
+void PlotChart::paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const
+{
+    painter.save();
+    painter.setClipRect(area);
+    painter.setBrush(Qt::NoBrush);
+    std::vector<History::Column> columns(static_cast<std::size_t>(view.columns));
+    for (auto trace = m_traces.rbegin(); trace != m_traces.rend(); ++trace) {
+        if (!trace->isDrawn())
+            continue;
+        trace->history->columns(view.from(), view.to(), columns);
+        const AxisRange &range = m_scales.range(trace->unit);
+        const auto y = [&](std::int32_t raw) {
+            return area.bottom() - (trace->value(raw) - range.minimum) / range.span() * area.height();
+        };
+        QPainterPath path;
+        for (std::size_t i = 0; i < columns.size() && view.step * (view.firstColumn + static_cast<std::int64_t>(i)) <= view.until; ++i) {
+            const History::Column &column = columns[i];
+            if (column.isEmpty)
+                continue;
+            const qreal x = area.left() + (static_cast<double>(i) + 0.5) / view.columns * area.width();
+            if (path.isEmpty() || column.gapBefore)
+                path.moveTo(x, y(column.first));
+            else
+                path.lineTo(x, y(column.first));
+            if (column.minimum != column.maximum) {
+                path.lineTo(x, y(column.minimum));
+                path.lineTo(x, y(column.maximum));
+                path.lineTo(x, y(column.last));
+            }
+        }
+        QPen pen(trace->color, 1.5, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
+        static constexpr std::array Styles{Qt::SolidLine, Qt::DashLine, Qt::DotLine, Qt::DashDotLine};
+        pen.setStyle(Styles[static_cast<std::size_t>(std::clamp(trace->dash, 0, 3))]);
+        painter.setPen(pen);
+        painter.setOpacity(trace->dimmed ? 0.35 : 1);
+        painter.drawPath(path);
+    }
+    painter.restore();
+}
+
+/// The level, and, where the view stands, the moment.
+void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const
+{
+    if (!m_trigger.isOn)
+        return;
+    const QColor color = colors(palette()).warning;
+    painter.setPen(QPen(color, 1, Qt::DashLine));
+    if (m_trigger.hasLevel) {
+        const AxisRange &range = m_scales.range(m_trigger.unit);
+        const qreal y = std::round(area.bottom() - (m_trigger.level - range.minimum) / range.span() * area.height());
+        if (y >= area.top() && y <= area.bottom())
+            painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
+    }
+    if (m_trigger.isShown) {
+        const qreal x = std::round(area.left() + view.column(view.zero) / view.columns * area.width());
+        if (x >= area.left() && x <= area.right())
+            painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+    }
+    const QFontMetricsF metrics(painter.font());
+    const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, std::max(40.0, area.width() - 160));
+    const QRectF box(area.left() + 4, area.top() + PlotMarks::Size + 4, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
+    painter.fillRect(box, palette().color(QPalette::Base));
+    painter.setPen(colors(palette()).dimmed);
+    painter.drawText(box, Qt::AlignCenter, text);
+}
+
+void PlotChart::paintBox(QPainter &painter, const QRectF &area) const
+{
+    const QColor line = colors(palette()).accent;
+    QColor fill = line;
+    fill.setAlphaF(0.12F);
+    painter.setPen(QPen(line, 1));
+    painter.setBrush(fill);
+    painter.drawRect(QRectF(m_dragFrom, m_dragLast).normalized().intersected(area));
+    painter.setBrush(Qt::NoBrush);
+}
+
 void PlotChart::paintEvent(QPaintEvent *)
 {
     const QRectF area = plotArea();
     const TimeView now = view();
     m_scales.setMostSteps(std::max(2, static_cast<int>(area.height() / StepHeight)));
-    if (m_autoscale)
-        m_scales.fit(m_traces, now, m_newest);
+    m_scales.fit(m_traces, now, m_newest);
     QPainter painter(this);
-    painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
+    if (m_isVector)
+        m_frame.paint(painter, frameContent(now));
+    else
+        painter.drawPixmap(0, 0, m_frame.pixmap(frameContent(now)));
     if (m_traces.empty()) {
         painter.setPen(colors(palette()).dimmed);
         paintEmpty(painter, area);
     } else {
-        paintTraces(painter, now, area);
+        m_isVector ? paintPaths(painter, now, area) : paintTraces(painter, now, area);
     }
-    if (m_cursor && !m_dragFrom && area.contains(*m_cursor))
-        PlotReadout{m_traces, m_scales, now, area, m_cursor->x(), palette()}.paint(painter);
+    m_marks.paint(painter, now, area, palette());
+    paintTrigger(painter, now, area);
+    m_cursors.paint(painter, now, area, palette());
+    if (m_drag == Drag::Box)
+        paintBox(painter, area);
+    if (m_mouse && m_drag == Drag::None && area.contains(*m_mouse))
+        PlotReadout{m_traces, m_scales, now, area, m_mouse->x(), palette()}.paint(painter);
     if (m_marked || m_showFocus) {
         painter.setPen(QPen(colors(palette()).accent, m_marked ? 2 : 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(area);
     }
-}
-
-void PlotChart::mouseMoveEvent(QMouseEvent *event)
-{
-    m_cursor = event->position();
-    if (m_dragFrom && !m_window.isLive()) {
-        const TimeView now = view();
-        const double columns = (m_dragFrom->x() - event->position().x()) / plotArea().width() * now.columns;
-        emit panned(LineTime(std::llround(columns * static_cast<double>(now.step.count()))));
-        const double up = (event->position().y() - m_dragFrom->y()) / plotArea().height();
-        if (!m_autoscale) {
-            for (PlotScales::Scale &scale : m_scales.scales())
-                scale.scaler.move(up * scale.scaler.range().span());
-        }
-        m_dragFrom = event->position();
-    }
-    update();
-}
-
-void PlotChart::mousePressEvent(QMouseEvent *event)
-{
-    if (event->button() != Qt::LeftButton) {
-        QWidget::mousePressEvent(event);
-        return;
-    }
-    if (m_window.isLive())
-        return;
-    m_dragFrom = event->position();
-    setCursor(Qt::ClosedHandCursor);
-}
-
-void PlotChart::mouseReleaseEvent(QMouseEvent *event)
-{
-    if (event->button() != Qt::LeftButton)
-        return;
-    m_dragFrom.reset();
-    unsetCursor();
-    update();
-}
-
-void PlotChart::mouseDoubleClickEvent(QMouseEvent *)
-{
-    emit fitRequested();
-}
-
-void PlotChart::zoomValues(int steps, qreal y)
-{
-    const double factor = std::pow(WheelZoom, -steps);
-    const QRectF area = plotArea();
-    if (m_autoscale) {
-        m_autoscale = false;
-        emit autoscaleChanged(false);
-    }
-    for (PlotScales::Scale &scale : m_scales.scales()) {
-        const AxisRange &range = scale.scaler.range();
-        scale.scaler.zoom(factor, range.minimum + (area.bottom() - y) / area.height() * range.span());
-    }
-    update();
-}
-
-void PlotChart::zoomTime(int steps, qreal x)
-{
-    if (m_window.isLive()) {
-        emit spanStepped(-steps);
-        return;
-    }
-    const TimeView now = view();
-    const QRectF area = plotArea();
-    emit zoomed(std::pow(WheelZoom, -steps), now.timeAt((x - area.left()) / area.width() * now.columns));
-}
-
-void PlotChart::wheelEvent(QWheelEvent *event)
-{
-    event->accept();
-    m_wheelRest += event->angleDelta().y() != 0 ? event->angleDelta().y() : event->angleDelta().x();
-    const int steps = m_wheelRest / WheelStep;
-    m_wheelRest -= steps * WheelStep;
-    if (steps == 0)
-        return;
-    if (event->modifiers().testFlag(Qt::ControlModifier))
-        zoomValues(steps, event->position().y());
-    else
-        zoomTime(steps, event->position().x());
-}
-
-void PlotChart::keyPressEvent(QKeyEvent *event)
-{
-    const QPointF centre = plotArea().center();
-    const bool values = event->modifiers().testFlag(Qt::ControlModifier);
-    const LineTime tenth = (view().to() - view().from()) / 10;
-    switch (event->key()) {
-    case Qt::Key_Left: emit panned(-tenth); return;
-    case Qt::Key_Right: emit panned(tenth); return;
-    case Qt::Key_Plus:
-    case Qt::Key_Equal: values ? zoomValues(1, centre.y()) : zoomTime(1, centre.x()); return;
-    case Qt::Key_Minus: values ? zoomValues(-1, centre.y()) : zoomTime(-1, centre.x()); return;
-    case Qt::Key_Home: emit fitRequested(); return;
-    default: QWidget::keyPressEvent(event);
-    }
-}
-
-void PlotChart::focusInEvent(QFocusEvent *event)
-{
-    m_showFocus = event->reason() == Qt::TabFocusReason || event->reason() == Qt::BacktabFocusReason
-        || event->reason() == Qt::ShortcutFocusReason;
-    update();
-}
-
-void PlotChart::focusOutEvent(QFocusEvent *)
-{
-    m_showFocus = false;
-    update();
-}
-
-void PlotChart::leaveEvent(QEvent *)
-{
-    m_cursor.reset();
-    update();
 }
 
 void PlotChart::changeEvent(QEvent *event)

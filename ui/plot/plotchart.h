@@ -2,7 +2,10 @@
 #pragma once
 
 #include "ui/plot/chartframe.h"
+#include "ui/plot/plotcursors.h"
+#include "ui/plot/plotmarks.h"
 #include "ui/plot/plotscales.h"
+#include "ui/plot/plottrigger.h"
 #include "ui/plot/timewindow.h"
 #include "ui/plot/traceimage.h"
 
@@ -16,9 +19,10 @@ class PlotChart : public QWidget
     Q_OBJECT
 
 public:
-    /// `window` outlives this.
+    /// `window` outlives this, or what setWindow() is given instead.
     explicit PlotChart(const TimeWindow &window, QWidget *parent = nullptr);
     ~PlotChart() override;
+    void setWindow(const TimeWindow &window);
 
     /// The histories must stay until the next call.
     void setTraces(std::vector<TraceData> traces);
@@ -26,15 +30,19 @@ public:
     void setEmphasized(int trace); ///< drawn stronger and on top; −1: none
     /// The newest sample of all plots: the right edge while live.
     void setNewest(LineTime newest);
+    /// On: every axis follows what is seen. Off: all stay as they are.
     void setAutoscale(bool on);
-    bool isAutoscale() const { return m_autoscale; }
-    /// Room for labels left and right: several charts below each other keep it alike, so that their times stand in
-    /// line.
+    bool isAutoscale() const { return !m_scales.isAnyByHand(); }
+    void setAxisRange(const QString &unit, double minimum, double maximum); ///< by hand
+    void setCursors(const PlotCursors &cursors);
+    void setTrigger(const TriggerMark &trigger);
+    void setMarks(const PlotMarks &marks) { m_marks = marks; }
+    void setVector(bool on) { m_isVector = on; } ///< painted in lines, not in pixels: for a drawing
+    /// Room for labels left and right: kept alike by charts below each other, so that their times stand in line.
     LabelColumns labelColumns() const;
     void setLabelRoom(LabelColumns room);
     void setEmptyText(const QString &text);
     void setMarked(bool marked); ///< outlined: a drop would go here
-
     const PlotScales &scales() const { return m_scales; }
     TimeView view() const;
     QRectF plotArea() const;
@@ -43,12 +51,17 @@ public:
 
 signals:
     void spanStepped(int steps);                            ///< live: the wheel; positive is longer
+    void pauseRequested();                                  ///< live: what follows is of a view that stands
     void zoomed(double factor, dynascope::LineTime around); ///< paused
     void panned(dynascope::LineTime by);
-    void autoscaleChanged(bool on); ///< the person zoomed values
-    void fitRequested();            ///< double click
+    void timesChosen(dynascope::LineTime from, dynascope::LineTime to); ///< paused: by a box
+    void autoscaleChanged(bool on);                                     ///< the person zoomed values
+    void fitRequested();                                                ///< double click
+    void cursorMoved(int which, dynascope::LineTime at);                ///< from the view's zero
+    void cursorsToggled();
 
 protected:
+    bool event(QEvent *event) override;
     void paintEvent(QPaintEvent *event) override;
     void mouseMoveEvent(QMouseEvent *event) override;
     void mousePressEvent(QMouseEvent *event) override;
@@ -62,14 +75,29 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
+    enum class Drag { None, Pan, Box, Cursor, Times, Values };
+
     LabelColumns labelRoom() const;
     ChartFrame::Content frameContent(const TimeView &view) const;
     void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
-    void zoomValues(int steps, qreal y);
+    void paintBox(QPainter &painter, const QRectF &area) const;
+    void paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const;
+    void paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const;
+    int axisAt(const QPointF &at) const; ///< whose labels are there; −1: none's
+    std::vector<PlotScales::Scale *> scalesOf(int axis); ///< −1: all
+    void zoomValues(int steps, qreal y, int axis = -1);
+    void moveValues(qreal pixels, int axis = -1);
     void zoomTime(int steps, qreal x); ///< positive: closer
+    void zoomToBox(const QRectF &box);
+    void beginDrag(Drag drag, const QPointF &at);
+    void dragTo(const QPointF &at);
+    void showDragShape(const QPointF &at, Qt::KeyboardModifiers modifiers);
+    LineTime timeAt(qreal x) const;
+    void placeCursor(int which, const QPointF &at);
+    void moveCursor(int columns);
 
-    const TimeWindow &m_window;
+    const TimeWindow *m_window;
     std::vector<TraceData> m_traces;
     PlotScales m_scales;
     ChartFrame m_frame;
@@ -77,12 +105,16 @@ private:
     LineTime m_newest{};
     QString m_emptyText;
     int m_emphasized = -1;
-    bool m_autoscale = true;
-    bool m_marked = false;
     LabelColumns m_labelRoom;
-    bool m_showFocus = false; ///< it came by key
-    std::optional<QPointF> m_cursor;
-    std::optional<QPointF> m_dragFrom;
+    bool m_isVector = false, m_marked = false, m_showFocus = false; ///< the focus came by key
+    PlotCursors m_cursors;
+    TriggerMark m_trigger;
+    PlotMarks m_marks;
+    std::optional<QPointF> m_mouse;
+    Drag m_drag = Drag::None;
+    int m_dragged = -1; ///< cursor or axis
+    QPointF m_dragFrom, m_dragLast;
+    bool m_wasMoved = false; ///< more than a click
     int m_wheelRest = 0; ///< eighths of a degree that don't make a step yet
 };
 

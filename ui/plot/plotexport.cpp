@@ -104,6 +104,14 @@ Result<void> saveCsv(const QString &path, std::span<const CsvColumn> columns, co
     return {};
 }
 
+Result<void> saveBytes(const QString &path, const QByteArray &bytes)
+{
+    QSaveFile file(path);
+    if (!file.open(QIODevice::WriteOnly) || file.write(bytes) != bytes.size() || !file.commit())
+        return notWritten(file);
+    return {};
+}
+
 Result<void> savePicture(const QString &path, const QPixmap &picture)
 {
     QSaveFile file(path);

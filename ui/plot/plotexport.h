@@ -30,6 +30,7 @@ bool writeCsv(QIODevice &to, std::span<const CsvColumn> columns, const std::atom
 
 /// Replace `path` only when all has been written; Cancelled and BadFile leave what was there. Any one thread.
 Result<void> saveCsv(const QString &path, std::span<const CsvColumn> columns, const std::atomic<bool> &cancelled);
+Result<void> saveBytes(const QString &path, const QByteArray &bytes);
 Result<void> savePicture(const QString &path, const QPixmap &picture); ///< GUI thread
 
 /// "dynascope 2026-05-04 17.03.59.csv"

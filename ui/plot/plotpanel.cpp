@@ -3,12 +3,15 @@
 
 #include "ui/common/icons.h"
 #include "ui/common/watchmime.h"
+#include "ui/plot/measuremodel.h"
+#include "ui/plot/measuretable.h"
 #include "ui/plot/plotchart.h"
 #include "ui/plot/tracelist.h"
 #include "ui/plot/tracemodel.h"
 
 #include <QBoxLayout>
 #include <QDragEnterEvent>
+#include <QMenu>
 #include <QToolButton>
 
 namespace dynascope {
@@ -20,30 +23,36 @@ constexpr int ListWidth = 264;
 
 } // namespace
 
-PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow &window, QWidget *parent)
+PlotPanel::PlotPanel(const Common &common, QWidget *parent)
     : QFrame(parent)
-    , m_monitor(monitor)
-    , m_model(new TraceModel(session, monitor, this))
-    , m_chart(new PlotChart(window, this))
+    , m_monitor(common.monitor)
+    , m_events(common.events)
+    , m_sharedTime(common.window)
+    , m_model(new TraceModel(common.session, common.monitor, common.colors, this))
+    , m_chart(new PlotChart(common.window, this))
     , m_list(new TraceList(*m_model, this))
-    , m_close(new QToolButton(m_chart))
-    , m_layout(new QBoxLayout(QBoxLayout::LeftToRight, this))
+    , m_figures(new MeasureModel(this))
+    , m_table(new MeasureTable(*m_figures, this))
+    , m_more(new QToolButton(m_chart))
+    , m_toLive(new QToolButton(m_chart))
+    , m_menu(new QMenu(this))
+    , m_layout(new QBoxLayout(QBoxLayout::LeftToRight))
 {
     setAcceptDrops(true);
-    m_layout->setContentsMargins(0, 0, 0, 0);
+    auto *all = new QVBoxLayout(this);
+    all->setContentsMargins(0, 0, 0, 0);
+    all->setSpacing(0);
+    all->addLayout(m_layout, 1);
+    all->addWidget(m_table);
+    m_table->hide();
     m_layout->setSpacing(0);
     m_layout->addWidget(m_chart, 1);
     m_layout->addWidget(m_list);
     m_chart->setEmptyText(tr("Live values appear here.\nTick a register in the table or drag it here."));
     m_chart->setAccessibleName(tr("Plot"));
-    m_close->setIcon(icon(QStringLiteral("close")));
-    m_close->setAutoRaise(true);
-    m_close->setIconSize({16, 16});
-    m_close->setToolTip(tr("Close this panel and its traces"));
-    m_close->setAccessibleName(m_close->toolTip());
-    m_close->hide();
-    connect(m_close, &QToolButton::clicked, this, &PlotPanel::closeRequested);
+    makeButtons();
     connect(m_list, &TraceList::removeRequested, this, &PlotPanel::onRemoveRequested);
+    connect(m_list, &TraceList::deriveRequested, this, &PlotPanel::deriveRequested);
     connect(m_list, &TraceList::currentRowChanged, m_chart, &PlotChart::setEmphasized);
     for (const auto signal : {&TraceModel::rowsInserted, &TraceModel::rowsRemoved})
         connect(m_model, signal, this, &PlotPanel::updateList);
@@ -60,27 +69,122 @@ PlotPanel::PlotPanel(Session &session, const Monitor &monitor, const TimeWindow 
 
 PlotPanel::~PlotPanel() = default;
 
+void PlotPanel::makeButtons()
+{
+    m_more->setIcon(icon(QStringLiteral("more")));
+    m_more->setAutoRaise(true);
+    m_more->setIconSize({16, 16});
+    m_more->setToolTip(tr("More for this panel: time axis of its own, cursors, close"));
+    m_more->setAccessibleName(tr("Panel menu"));
+    m_more->setPopupMode(QToolButton::InstantPopup);
+    m_more->setMenu(m_menu);
+    connect(m_menu, &QMenu::aboutToShow, this, &PlotPanel::fillMenu);
+    m_toLive->setIcon(icon(QStringLiteral("play")));
+    m_toLive->setText(tr("Back to live"));
+    m_toLive->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    m_toLive->setIconSize({16, 16});
+    m_toLive->setAutoFillBackground(true);
+    m_toLive->setToolTip(tr("Follow the newest values again (double click in the plot, Home)"));
+    m_toLive->hide();
+    connect(m_toLive, &QToolButton::clicked, this, &PlotPanel::liveRequested);
+}
+
+void PlotPanel::fillMenu()
+{
+    m_menu->clear();
+    QAction *own = m_menu->addAction(tr("Time axis of its &own"));
+    own->setCheckable(true);
+    own->setChecked(m_hasOwnTime);
+    connect(own, &QAction::toggled, this, [this](bool on) {
+        setOwnTime(on);
+        emit ownTimeChanged();
+    });
+    m_menu->addSeparator();
+    m_list->addDerivedActions(*m_menu);
+    m_menu->addSeparator();
+    QAction *close = m_menu->addAction(icon(QStringLiteral("close")), tr("&Close this panel and its traces"));
+    close->setEnabled(m_isClosable);
+    connect(close, &QAction::triggered, this, &PlotPanel::closeRequested);
+}
+
+void PlotPanel::placeButtons()
+{
+    const QRect area = m_chart->plotArea().toRect();
+    m_more->adjustSize();
+    m_more->move(area.right() + 1 - m_more->width(), std::max(0, (area.top() - m_more->height()) / 2));
+    m_toLive->adjustSize();
+    m_toLive->move(area.right() - 8 - m_toLive->width(), area.top() + 8);
+}
+
 void PlotPanel::setClosable(bool closable)
 {
-    m_close->setVisible(closable);
+    m_isClosable = closable;
+}
+
+void PlotPanel::setLive(bool live)
+{
+    m_toLive->setVisible(!live);
+    placeButtons();
+}
+
+void PlotPanel::setOwnTime(bool own)
+{
+    if (own == m_hasOwnTime)
+        return;
+    m_hasOwnTime = own;
+    m_ownTime = m_sharedTime; // begins with what is seen
+    m_chart->setWindow(own ? m_ownTime : m_sharedTime);
+}
+
+void PlotPanel::setCursors(const PlotCursors &cursors)
+{
+    m_chart->setCursors(cursors);
+    m_isMeasured = false;
+    m_table->setVisible(cursors.isOn && m_model->rowCount() > 0);
+}
+
+void PlotPanel::measure(const PlotCursors &cursors, std::size_t &budget)
+{
+    if (m_table->isVisible() && !m_isMeasured)
+        m_isMeasured = m_figures->measure(m_chart->traces(), cursors, m_chart->view().zero, budget);
+}
+
+void PlotPanel::setNewest(LineTime newest)
+{
+    m_chart->setNewest(newest);
+    m_isMeasured = false;
+}
+
+void PlotPanel::showFigures()
+{
+    if (m_table->isVisible())
+        m_figures->show();
 }
 
 void PlotPanel::updateList()
 {
     m_list->setVisible(m_model->rowCount() > 0);
     m_list->updateGeometry();
+    if (m_model->rowCount() == 0)
+        m_table->hide();
     refreshTraces();
 }
 
 void PlotPanel::refreshTraces()
 {
+    PlotMarks marks;
+    marks.log = &m_events;
+    for (const Watch &watch : m_model->needed())
+        marks.devices.insert(watch.device);
+    m_chart->setMarks(marks);
     m_chart->setTraces(m_model->drawn(palette()));
+    m_isMeasured = false;
 }
 
 std::uint64_t PlotPanel::samplesSeen() const
 {
     std::uint64_t count = 0;
-    for (const Watch &watch : m_model->watches()) {
+    for (const Watch &watch : m_model->needed()) {
         if (const History *history = m_monitor.history(watch))
             count += history->appended();
     }
@@ -90,7 +194,7 @@ std::uint64_t PlotPanel::samplesSeen() const
 LineTime PlotPanel::newest() const
 {
     LineTime newest{};
-    for (const Watch &watch : m_model->watches()) {
+    for (const Watch &watch : m_model->needed()) {
         const History *history = m_monitor.history(watch);
         if (history && !history->isEmpty())
             newest = std::max(newest, history->last().at);
@@ -100,10 +204,10 @@ LineTime PlotPanel::newest() const
 
 void PlotPanel::onRemoveRequested(const QList<int> &rows)
 {
-    std::vector<Watch> watches;
+    std::vector<TraceKey> keys;
     for (const int row : rows)
-        watches.push_back(m_model->watch(row));
-    emit removeRequested(watches);
+        keys.push_back(m_model->key(row));
+    emit removeRequested(keys);
 }
 
 void PlotPanel::dragEnterEvent(QDragEnterEvent *event)
@@ -150,10 +254,8 @@ void PlotPanel::changeEvent(QEvent *event)
 
 bool PlotPanel::eventFilter(QObject *watched, QEvent *event)
 {
-    if (watched == m_chart && event->type() == QEvent::Resize) {
-        m_close->adjustSize();
-        m_close->move(m_chart->width() - m_close->width(), 0); // in the strip above the plot
-    }
+    if (watched == m_chart && event->type() == QEvent::Resize)
+        placeButtons();
     if (event->type() == QEvent::FocusIn || event->type() == QEvent::MouseButtonPress)
         emit activated();
     return QFrame::eventFilter(watched, event);

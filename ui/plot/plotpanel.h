@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/derived.h"
 #include "core/session/monitor.h"
 #include "ui/plot/timewindow.h"
 
 #include <QFrame>
 
 class QBoxLayout;
+class QMenu;
 class QToolButton;
 
 namespace dynascope {
 
+class EventLog;
+class MeasureModel;
+class MeasureTable;
 class PlotChart;
+struct PlotCursors;
+class TraceColors;
 class TraceList;
 class TraceModel;
 
@@ -21,12 +28,32 @@ class PlotPanel : public QFrame
     Q_OBJECT
 
 public:
-    PlotPanel(Session &session, const Monitor &monitor, const TimeWindow &window, QWidget *parent = nullptr);
+    /// What all panels have in common. Outlives them.
+    struct Common {
+        Session &session;
+        const Monitor &monitor;
+        const TimeWindow &window;
+        TraceColors &colors;
+        const EventLog &events;
+    };
+    explicit PlotPanel(const Common &common, QWidget *parent = nullptr);
     ~PlotPanel() override;
 
     TraceModel &model() const { return *m_model; }
     PlotChart &chart() const { return *m_chart; }
     void setClosable(bool closable);
+    void setLive(bool live); ///< else it offers the way back
+
+    /// A time axis of its own, that of the others, or theirs.
+    bool hasOwnTime() const { return m_hasOwnTime; }
+    void setOwnTime(bool own);
+    TimeWindow &ownTime() { return m_ownTime; }
+
+    void setCursors(const PlotCursors &cursors);
+    /// See MeasureModel. Nothing to do without cursors.
+    void measure(const PlotCursors &cursors, std::size_t &budget);
+    void setNewest(LineTime newest);
+    void showFigures();
 
     /// Hands the chart the traces as they are now.
     void refreshTraces();
@@ -37,8 +64,11 @@ public:
 
 signals:
     void watchesDropped(const std::vector<dynascope::Watch> &watches);
-    void removeRequested(const std::vector<dynascope::Watch> &watches);
+    void removeRequested(const std::vector<dynascope::TraceKey> &keys);
+    void deriveRequested(const dynascope::TraceKey &key);
     void closeRequested();
+    void liveRequested();
+    void ownTimeChanged();
     void activated(); ///< clicked or focused: the present panel
 
 protected:
@@ -52,12 +82,25 @@ protected:
 private:
     void onRemoveRequested(const QList<int> &rows);
     void updateList();
+    void makeButtons();
+    void placeButtons();
+    void fillMenu();
 
     const Monitor &m_monitor;
+    const EventLog &m_events;
+    const TimeWindow &m_sharedTime;
+    TimeWindow m_ownTime;
+    bool m_hasOwnTime = false;
+    bool m_isClosable = false;
+    bool m_isMeasured = false; ///< all of what stands between the cursors now
     TraceModel *m_model;
     PlotChart *m_chart;
     TraceList *m_list;
-    QToolButton *m_close;
+    MeasureModel *m_figures;
+    MeasureTable *m_table;
+    QToolButton *m_more;
+    QToolButton *m_toLive;
+    QMenu *m_menu;
     QBoxLayout *m_layout;
 };
 

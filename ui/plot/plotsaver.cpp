@@ -60,6 +60,16 @@ void PlotSaver::askForPicture(const QPixmap &picture)
     });
 }
 
+void PlotSaver::askForDrawing(const QByteArray &svg)
+{
+    ask(tr("Save the plots as a drawing"), QStringLiteral("svg"), [this, svg](const QString &path) {
+        if (const Result<void> result = saveBytes(path, svg))
+            sayWritten(path);
+        else
+            sayFailed(result.error());
+    });
+}
+
 void PlotSaver::sayItLasts()
 {
     emit posted({MessageKind::Info, tr("%1 is being written").arg(QDir::toNativeSeparators(m_csv.path())), tr("Cancel"),

@@ -19,6 +19,7 @@ public:
     /// `traces` is asked once the name is chosen. Refused while another is being written.
     void askForCsv(std::function<std::vector<CsvSave::Trace>()> traces, LineTime from, LineTime end);
     void askForPicture(const QPixmap &picture);
+    void askForDrawing(const QByteArray &svg);
 
 signals:
     void posted(const dynascope::Message &message);

@@ -20,14 +20,25 @@ void PlotScales::setTraces(std::span<const TraceData> traces)
         auto at = std::ranges::find(m_scales, trace.unit, &Scale::unit);
         const double smallest = std::max(std::abs(trace.scale) * SmallestSteps, 1e-6);
         if (at == m_scales.end()) {
-            m_scales.push_back({trace.unit, AxisScaler(smallest, trace.unit == QStringLiteral("°")), false});
+            m_scales.push_back({trace.unit, AxisScaler(smallest, trace.unit == QStringLiteral("°")), false, false});
             at = m_scales.end() - 1;
+            takeWaiting(*at);
         }
         at->isUsed = at->isUsed || trace.visible;
     }
     std::erase_if(m_scales, [traces](const Scale &scale) {
         return std::ranges::none_of(traces, [&scale](const TraceData &trace) { return trace.unit == scale.unit; });
     });
+}
+
+void PlotScales::takeWaiting(Scale &scale)
+{
+    const auto at = std::ranges::find(m_waiting, scale.unit, &Waiting::unit);
+    if (at == m_waiting.end())
+        return;
+    scale.isByHand = true;
+    scale.scaler.setRange(at->minimum, at->maximum);
+    m_waiting.erase(at);
 }
 
 void PlotScales::setMostSteps(int most)
@@ -39,6 +50,8 @@ void PlotScales::setMostSteps(int most)
 void PlotScales::fit(std::span<const TraceData> traces, const TimeView &view, LineTime now)
 {
     for (Scale &scale : m_scales) {
+        if (scale.isByHand)
+            continue;
         double low = 0;
         double high = 0;
         bool isFound = false;
@@ -59,10 +72,32 @@ void PlotScales::fit(std::span<const TraceData> traces, const TimeView &view, Li
     }
 }
 
-void PlotScales::refit()
+void PlotScales::setByHand(bool byHand)
 {
-    for (Scale &scale : m_scales)
-        scale.scaler.refit();
+    for (Scale &scale : m_scales) {
+        if (scale.isByHand && !byHand)
+            scale.scaler.refit();
+        scale.isByHand = byHand;
+    }
+    if (!byHand)
+        m_waiting.clear();
+}
+
+bool PlotScales::isAnyByHand() const
+{
+    return std::ranges::any_of(m_scales, &Scale::isByHand);
+}
+
+void PlotScales::setRange(const QString &unit, double minimum, double maximum)
+{
+    const auto at = std::ranges::find(m_scales, unit, &Scale::unit);
+    if (at == m_scales.end()) {
+        std::erase_if(m_waiting, [&unit](const Waiting &waiting) { return waiting.unit == unit; });
+        m_waiting.push_back({unit, minimum, maximum});
+        return;
+    }
+    at->isByHand = true;
+    at->scaler.setRange(minimum, maximum);
 }
 
 const AxisRange &PlotScales::range(const QString &unit) const

@@ -15,23 +15,35 @@ public:
     struct Scale {
         QString unit;
         AxisScaler scaler;
-        bool isUsed = false; ///< a visible trace has this unit
+        bool isUsed = false;   ///< a visible trace has this unit
+        bool isByHand = false; ///< a person chose its range: the data doesn't move it
     };
 
     /// Follows the traces' units; a unit keeps its range while it is hidden.
     void setTraces(std::span<const TraceData> traces);
     void setMostSteps(int most);
-    /// Fits each axis to what is in view.
+    /// Fits each axis that isn't by hand to what is in view.
     void fit(std::span<const TraceData> traces, const TimeView &view, LineTime now);
-    void refit();
+    void setByHand(bool byHand); ///< all; those that no longer are begin afresh
+    bool isAnyByHand() const;
+    /// By hand, also of a unit whose traces are yet to come.
+    void setRange(const QString &unit, double minimum, double maximum);
 
     const AxisRange &range(const QString &unit) const;
     /// 0 left, from 1 on right; none where so many units are not in sight.
     const Scale *labelled(int side) const;
     std::vector<Scale> &scales() { return m_scales; }
+    const std::vector<Scale> &scales() const { return m_scales; }
 
 private:
+    struct Waiting {
+        QString unit;
+        double minimum, maximum;
+    };
+    void takeWaiting(Scale &scale);
+
     std::vector<Scale> m_scales;
+    std::vector<Waiting> m_waiting; ///< chosen, but there is no trace yet
 };
 
 } // namespace dynascope

@@ -18,6 +18,7 @@ void TimeWindow::pause(LineTime newest)
         return;
     m_live = false;
     m_zero = newest;
+    m_last = newest;
     m_end = newest;
     m_pausedSpan = m_span;
 }
@@ -25,7 +26,7 @@ void TimeWindow::pause(LineTime newest)
 void TimeWindow::pan(LineTime by)
 {
     if (!m_live)
-        m_end = std::min(m_end + by, m_zero);
+        m_end = std::min(m_end + by, m_last);
 }
 
 void TimeWindow::zoom(double factor, LineTime around)
@@ -35,8 +36,25 @@ void TimeWindow::zoom(double factor, LineTime around)
     const auto wanted = LineTime(static_cast<std::int64_t>(static_cast<double>(m_pausedSpan.count()) * factor));
     const LineTime span = std::clamp(wanted, ShortestZoom, LongestSpan);
     const double actual = static_cast<double>(span.count()) / static_cast<double>(m_pausedSpan.count());
-    m_end = std::min(around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual)), m_zero);
+    m_end = std::min(around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual)), m_last);
     m_pausedSpan = span;
+}
+
+void TimeWindow::show(LineTime from, LineTime to)
+{
+    if (m_live || to <= from)
+        return;
+    m_pausedSpan = std::clamp(to - from, ShortestZoom, LongestSpan);
+    m_end = std::min(from + (to - from) / 2 + m_pausedSpan / 2, m_last);
+}
+
+void TimeWindow::hold(LineTime zero, LineTime before, LineTime after, LineTime last)
+{
+    m_live = false;
+    m_zero = zero;
+    m_end = zero + after;
+    m_last = std::max(last, m_end);
+    m_pausedSpan = std::clamp(before + after, ShortestZoom, LongestSpan);
 }
 
 TimeView TimeWindow::view(int columns, LineTime newest) const
@@ -50,7 +68,7 @@ TimeView TimeWindow::view(int columns, LineTime newest) const
     view.firstColumn = end / view.step - count + 1; // the column that holds `end` is the last
     view.zero = m_live ? view.to() : m_zero;
     if (!m_live)
-        view.until = m_zero;
+        view.until = m_last;
     return view;
 }
 

@@ -20,17 +20,22 @@ public:
     bool isLive() const { return m_live; }
     void setLive() { m_live = true; }
     void pause(LineTime newest); ///< what is seen stays
+    LineTime pausedAt() const { return m_last; } ///< while paused: the newest sample then
+    /// Stands around `zero`, also where it was live; nothing after `last` is shown.
+    void hold(LineTime zero, LineTime before, LineTime after, LineTime last);
 
     /// While paused.
     void pan(LineTime by);
     void zoom(double factor, LineTime around);
+    void show(LineTime from, LineTime to); ///< within the limits of zooming
 
     TimeView view(int columns, LineTime newest) const;
 
 private:
     LineTime m_span = std::chrono::seconds(10);
     bool m_live = true;
-    LineTime m_zero{}; ///< paused: the newest sample then
+    LineTime m_zero{}; ///< paused: what the axis calls 0 s
+    LineTime m_last{}; ///< paused: the newest sample then
     LineTime m_end{};  ///< paused: the view's right edge
     LineTime m_pausedSpan{};
 };

@@ -18,6 +18,7 @@ struct TraceData {
     QString label;
     QString unit; ///< traces of one unit share a value axis
     QColor color;
+    int dash = 0; ///< pattern of its line, see traceInk(); 0: none
     bool visible = true;
     bool dimmed = false; ///< its device is gone
 

@@ -3,6 +3,7 @@
 
 #include "ui/common/icons.h"
 #include "ui/common/theme.h"
+#include "ui/plot/tracecolors.h"
 #include "ui/plot/tracemodel.h"
 
 #include <QAbstractItemView>
@@ -23,6 +24,24 @@ QFont smallFont(QFont font)
 {
     font.setPointSizeF(font.pointSizeF() * 0.9);
     return font;
+}
+
+/// Upright, with the pattern of the line.
+void paintSwatch(QPainter &painter, const QRectF &box, int dash)
+{
+    if (dash == 0) {
+        painter.drawRoundedRect(box, 2, 2);
+        return;
+    }
+    qreal begin = box.top();
+    for (qreal y = box.top(); y <= box.bottom(); ++y) {
+        const bool hasInk = y < box.bottom() && traceInk(dash, static_cast<std::int64_t>(y - box.top()), 1);
+        if (hasInk)
+            continue;
+        if (y > begin)
+            painter.drawRect(QRectF(box.left(), begin, box.width(), y - begin));
+        begin = y + 1;
+    }
 }
 
 } // namespace
@@ -67,7 +86,8 @@ void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(Qt::NoPen);
     painter->setBrush(swatch);
-    painter->drawRoundedRect(QRectF(row.left() + Margin, row.top() + 6, SwatchWidth, row.height() - 12), 2, 2);
+    paintSwatch(*painter, QRectF(row.left() + Margin, row.top() + 6, SwatchWidth, row.height() - 12),
+        dashOf(index.data(TraceModel::ColorIndexRole).toInt()));
 
     const QFont small = smallFont(option.font);
     const QFont numbers = numberFont(option.font);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/plot/traceimage.h"
 
+#include "ui/plot/tracecolors.h"
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -71,6 +73,7 @@ TraceImage::Painted::Painted(const Item &item, const TimeView &view, const Paint
     , scale(item.trace->scale)
     , offset(item.trace->offset)
     , color(colorOf(*item.trace).rgba())
+    , dash(item.trace->dash)
     , isDrawn(item.trace->isDrawn())
     , isOnTop(item.isOnTop)
     , thickness(item.thickness)
@@ -88,8 +91,8 @@ TraceImage::Painted::Painted(const Item &item, const TimeView &view, const Paint
 
 bool TraceImage::Painted::looksAs(const Painted &other) const
 {
-    return std::tie(history, scale, offset, color, isDrawn, isOnTop, asLines, hasDots, thickness, range)
-        == std::tie(other.history, other.scale, other.offset, other.color, other.isDrawn, other.isOnTop, other.asLines,
+    return std::tie(history, scale, offset, color, dash, isDrawn, isOnTop, asLines, hasDots, thickness, range)
+        == std::tie(other.history, other.scale, other.offset, other.color, other.dash, other.isDrawn, other.isOnTop, other.asLines,
             other.hasDots, other.thickness, other.range);
 }
 
@@ -138,7 +141,7 @@ void TraceImage::paintItem(const Item &item, const Painted &how, ColumnCache &ca
     m_raster.setColor(colorOf(*item.trace));
     const History &history = *item.trace->history;
     if (!how.asLines) {
-        paintColumns(item, cache.columns(history, view));
+        paintColumns(item, cache.columns(history, view), view.firstColumn);
         return;
     }
     const LineTime from = view.step * (view.firstColumn + std::max(m_first - Overlap, 0));
@@ -149,8 +152,11 @@ void TraceImage::paintItem(const Item &item, const Painted &how, ColumnCache &ca
         paintDots(item, view, first, last);
 }
 
-void TraceImage::paintColumns(const Item &item, std::span<const History::Column> columns)
+void TraceImage::paintColumns(
+    const Item &item, std::span<const History::Column> columns, std::int64_t firstColumn)
 {
+    const auto hasInk = [dash = item.trace->dash, ratio = item.pixelRatio, firstColumn](
+                            int x) { return traceInk(dash, firstColumn + x, ratio); };
     const Vertical vertical(item, m_raster.height());
     const float half = item.thickness / 2;
     int beforeAt = m_first - 1;
@@ -170,6 +176,8 @@ void TraceImage::paintColumns(const Item &item, std::span<const History::Column>
             const float to = vertical(column.first);
             const auto distance = static_cast<float>(x - beforeAt);
             for (int between = std::max(beforeAt + 1, m_first); between < x; ++between) {
+                if (!hasInk(between))
+                    continue;
                 const auto part = static_cast<float>(between - beforeAt);
                 m_raster.slope(between, from + (to - from) * (part - 0.5F) / distance,
                     from + (to - from) * (part + 0.5F) / distance, item.thickness,
@@ -180,9 +188,9 @@ void TraceImage::paintColumns(const Item &item, std::span<const History::Column>
             top = std::min(top, meeting);
             bottom = std::max(bottom, meeting);
         }
-        if (isSlope(columns, x))
+        if (hasInk(x) && isSlope(columns, x))
             m_raster.slope(x, top, bottom, item.thickness, limitsAround(columns, x, vertical, {top, bottom}, half));
-        else
+        else if (hasInk(x))
             m_raster.span(x, top - half, bottom + half);
         before = &column;
         beforeAt = x;
@@ -230,17 +238,20 @@ void TraceImage::paintLines(const Item &item, const TimeView &view, std::size_t 
         fromX = x;
         fromY = y;
     }
-    strokePath(item.thickness);
+    strokePath(item, view);
 }
 
-void TraceImage::strokePath(float thickness)
+void TraceImage::strokePath(const Item &item, const TimeView &view)
 {
+    const float thickness = item.thickness;
     const float half = thickness / 2;
     for (auto i = static_cast<std::size_t>(m_first) + 1; i + 1 < m_path.size(); ++i) {
         const PathColumn &path = m_path[i];
         if (path.isEmpty())
             continue;
         const int column = static_cast<int>(i) - 1;
+        if (!traceInk(item.trace->dash, view.firstColumn + column, item.pixelRatio))
+            continue;
         if (path.samples > 1) { // may go up and down
             m_raster.span(column, path.low - half, path.high + half);
             continue;

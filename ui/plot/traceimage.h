@@ -17,6 +17,7 @@ public:
         const AxisRange *range = nullptr;
         float thickness = 1.5F; ///< in device pixels
         bool isOnTop = false;
+        int pixelRatio = 1; ///< of its dashes
     };
 
     /// As wide as the view has columns. The first item lies on top. While a view moves on and nothing else changes,
@@ -30,6 +31,7 @@ private:
         HistoryMark mark;
         double scale = 0, offset = 0;
         QRgb color = 0;
+        int dash = 0;
         bool isDrawn = false;
         bool isOnTop = false;
         bool asLines = false; ///< each sample for itself
@@ -43,9 +45,9 @@ private:
 
     int firstToPaint(std::span<const Painted> now, const TimeView &view, int height) const;
     void paintItem(const Item &item, const Painted &how, ColumnCache &cache, const TimeView &view);
-    void paintColumns(const Item &item, std::span<const History::Column> columns);
+    void paintColumns(const Item &item, std::span<const History::Column> columns, std::int64_t firstColumn);
     void paintLines(const Item &item, const TimeView &view, std::size_t first, std::size_t last);
-    void strokePath(float thickness);
+    void strokePath(const Item &item, const TimeView &view);
     void paintDots(const Item &item, const TimeView &view, std::size_t first, std::size_t last);
 
     /// The heights that a trace passes through inside a column.

@@ -2,6 +2,8 @@
 #include "ui/plot/tracelist.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/present.h"
+#include "ui/plot/deriveddialog.h"
 #include "ui/plot/tracedelegate.h"
 #include "ui/plot/tracemodel.h"
 
@@ -76,10 +78,48 @@ void TraceList::showMenu(const QPoint &at)
         all.append(row);
     menu->addAction(tr("Show &all"), this, [this, all] { setShown(all, true); });
     menu->addSeparator();
+    addDerivedActions(*menu);
+    menu->addSeparator();
     menu->addAction(
         icon(QStringLiteral("close")), tr("&Remove from the plot"), this, [this, rows] { emit removeRequested(rows); });
     menu->addAction(tr("Remove all"), this, [this, all] { emit removeRequested(all); });
     menu->popup(at);
+}
+
+void TraceList::addDerivedActions(QMenu &menu)
+{
+    // At once for the selected traces, else for all: once for each pair.
+    QList<int> rows = selectedRows();
+    for (int row = 0; rows.isEmpty() && row < m_model.rowCount(); ++row)
+        rows.append(row);
+    std::vector<TraceKey> differences;
+    for (const int row : rows) {
+        const std::optional<TraceKey> key = row < m_model.rowCount() ? m_model.goalLessPresent(row) : std::nullopt;
+        if (key && std::ranges::find(differences, *key) == differences.end())
+            differences.push_back(*key);
+    }
+    if (!differences.empty()) {
+        QAction *action = menu.addAction(tr("Add &Goal − Present"));
+        action->setToolTip(tr("How far each joint is from its goal"));
+        connect(action, &QAction::triggered, this, [this, differences] {
+            for (const TraceKey &key : differences)
+                emit deriveRequested(key);
+        });
+    }
+    QAction *ask = menu.addAction(tr("Add &derived trace…"));
+    ask->setEnabled(!m_model.watches().empty());
+    connect(ask, &QAction::triggered, this, &TraceList::askForDerived);
+}
+
+void TraceList::askForDerived()
+{
+    const QString name = QStringLiteral("derivedDialog");
+    const QString subject = QString::number(quintptr(this), 16);
+    if (m_model.watches().empty() || raiseOpen(*window(), name, subject))
+        return;
+    auto *dialog = new DerivedDialog(m_model, currentIndex().row(), this);
+    connect(dialog, &DerivedDialog::chosen, this, &TraceList::deriveRequested);
+    present(*dialog, subject);
 }
 
 void TraceList::keyPressEvent(QKeyEvent *event)

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/derived.h"
+
 #include <QListView>
+
+class QMenu;
 
 namespace dynascope {
 
@@ -16,10 +20,13 @@ public:
     explicit TraceList(TraceModel &model, QWidget *parent = nullptr);
 
     QSize sizeHint() const override;
+    /// What is offered of derived traces, also by the panel's menu.
+    void addDerivedActions(QMenu &menu);
 
 signals:
     void removeRequested(const QList<int> &rows);
     void currentRowChanged(int row); ///< −1: none
+    void deriveRequested(const dynascope::TraceKey &key);
 
 protected:
     void contextMenuEvent(QContextMenuEvent *event) override;
@@ -31,6 +38,7 @@ private:
     void showMenu(const QPoint &at);
     void setShown(const QList<int> &rows, bool visible);
     void showOnly(const QList<int> &rows);
+    void askForDerived();
 
     TraceModel &m_model;
 };

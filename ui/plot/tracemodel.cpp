@@ -8,56 +8,60 @@
 
 namespace dynascope {
 
-TraceModel::TraceModel(Session &session, const Monitor &monitor, QObject *parent)
-    : QAbstractListModel(parent), m_session(session), m_monitor(monitor)
+TraceModel::TraceModel(Session &session, const Monitor &monitor, TraceColors &colors, QObject *parent)
+    : QAbstractListModel(parent), m_session(session), m_monitor(monitor), m_colors(colors)
 {
     connect(&session, &Session::deviceAboutToBeRemoved, this, &TraceModel::onDeviceGone);
     connect(&session, &Session::deviceAdded, this, &TraceModel::onDeviceBack);
 }
 
-int TraceModel::indexOf(const Watch &watch) const
+int TraceModel::indexOf(const TraceKey &key) const
 {
-    const auto at = std::ranges::find(m_traces, watch, &Trace::watch);
+    const auto at = std::ranges::find(m_traces, key, &Trace::key);
     return at == m_traces.end() ? -1 : static_cast<int>(at - m_traces.begin());
+}
+
+std::vector<TraceKey> TraceModel::keys() const
+{
+    std::vector<TraceKey> keys;
+    for (const Trace &trace : m_traces)
+        keys.push_back(trace.key);
+    return keys;
 }
 
 std::vector<Watch> TraceModel::watches() const
 {
     std::vector<Watch> watches;
-    for (const Trace &trace : m_traces)
-        watches.push_back(trace.watch);
+    for (const Trace &trace : m_traces) {
+        if (!trace.key.isDerived())
+            watches.push_back(trace.key.watch);
+    }
     return watches;
 }
 
-int TraceModel::freeColor() const
+std::set<Watch> TraceModel::needed() const
 {
-    int color = 0;
-    while (std::ranges::find(m_traces, color, &Trace::color) != m_traces.end())
-        ++color;
-    return color;
+    std::set<Watch> all;
+    for (const Trace &trace : m_traces) {
+        all.insert(trace.key.watch);
+        if (trace.key.derivation.kind == Derivation::Kind::Difference)
+            all.insert(trace.key.derivation.other);
+    }
+    return all;
 }
 
 /// What the device says of itself and of the field: names, and how raw values become physical ones.
 void TraceModel::describe(Trace &trace) const
 {
-    const Device *device = m_session.device(trace.watch.device);
+    const Device *device = m_session.device(trace.key.watch.device);
     if (!device || trace.gone)
         return;
-    trace.effective = device->effective(trace.watch.field);
+    trace.effective = device->effective(trace.key.watch.field);
     trace.resolution = device->table().resolution();
     trace.device = device->displayName();
-    trace.field = device->table().fields()[static_cast<std::size_t>(trace.watch.field)].name;
+    trace.field = nameOf(trace.key);
+    relate(trace);
     measure(trace);
-}
-
-/// In the chosen units. Linear, for histories keep signed numbers.
-void TraceModel::measure(Trace &trace) const
-{
-    const Physical zero = physical(trace.effective, trace.resolution, 0, m_units);
-    trace.offset = zero.value;
-    trace.scale = physical(trace.effective, trace.resolution, 1, m_units).value - zero.value;
-    trace.decimals = zero.decimals;
-    trace.unit = zero.unit;
 }
 
 void TraceModel::setUnits(const UnitPreferences &units)
@@ -76,19 +80,27 @@ void TraceModel::setUnits(const UnitPreferences &units)
 
 bool TraceModel::isSilent(const Trace &trace) const
 {
-    const Device *device = m_session.device(trace.watch.device);
+    const Device *device = m_session.device(trace.key.watch.device);
     return device && device->state() == Device::State::Silent;
 }
 
-bool TraceModel::add(const Watch &watch)
+bool TraceModel::add(const TraceKey &key)
 {
-    Device *device = m_session.device(watch.device);
-    if (!device || watch.field < 0 || watch.field >= static_cast<int>(device->table().fields().size())
-        || indexOf(watch) >= 0)
+    const auto names = [this](const Watch &watch) {
+        const Device *device = m_session.device(watch.device);
+        return device && watch.field >= 0 && watch.field < static_cast<int>(device->table().fields().size());
+    };
+    if (!names(key.watch) || indexOf(key) >= 0)
         return false;
+    if (key.derivation.kind == Derivation::Kind::Difference
+        && (!names(key.derivation.other) || !areComparable(key.watch, key.derivation.other)))
+        return false;
+    Device *device = m_session.device(key.watch.device);
     Trace trace;
-    trace.watch = watch;
-    trace.color = freeColor();
+    trace.key = key;
+    trace.color = m_colors.take(key);
+    if (key.isDerived() && key.derivation.kind != Derivation::Kind::Scaled)
+        trace.derived = std::make_shared<DerivedHistory>(key.derivation);
     describe(trace);
     follow(device);
     beginInsertRows({}, rowCount(), rowCount());
@@ -99,12 +111,13 @@ bool TraceModel::add(const Watch &watch)
 
 void TraceModel::remove(int row)
 {
+    m_colors.release(this->key(row));
     const DeviceKey key = watch(row).device;
     beginRemoveRows({}, row, row);
     m_traces.erase(m_traces.begin() + row);
     endRemoveRows();
     Device *device = m_session.device(key);
-    if (device && std::ranges::none_of(m_traces, [key](const Trace &trace) { return trace.watch.device == key; }))
+    if (device && std::ranges::none_of(m_traces, [key](const Trace &trace) { return trace.key.watch.device == key; }))
         disconnect(device, nullptr, this, nullptr);
 }
 
@@ -116,6 +129,7 @@ void TraceModel::setVisible(int row, bool visible)
 void TraceModel::setColorIndex(int row, int color)
 {
     m_traces[static_cast<std::size_t>(row)].color = color;
+    m_colors.remember(key(row), color);
     emit dataChanged(index(row), index(row), {ColorIndexRole});
 }
 
@@ -123,7 +137,7 @@ void TraceModel::updateDevice(Device *device)
 {
     for (int row = 0; row < rowCount(); ++row) {
         Trace &trace = m_traces[static_cast<std::size_t>(row)];
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         describe(trace);
         emit dataChanged(index(row), index(row));
@@ -134,7 +148,7 @@ void TraceModel::onDeviceGone(Device *device)
 {
     for (int row = 0; row < rowCount(); ++row) {
         Trace &trace = m_traces[static_cast<std::size_t>(row)];
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         trace.gone = true;
         trace.value.clear();
@@ -147,7 +161,7 @@ void TraceModel::onDeviceBack(Device *device)
 {
     bool isShown = false;
     for (Trace &trace : m_traces) {
-        if (trace.watch.device != device->key())
+        if (trace.key.watch.device != device->key())
             continue;
         trace.gone = false;
         isShown = true;
@@ -169,13 +183,14 @@ std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
     traces.reserve(m_traces.size());
     for (const Trace &trace : m_traces) {
         TraceData data;
-        data.history = m_monitor.history(trace.watch);
+        data.history = historyOf(trace);
         data.scale = trace.scale;
         data.offset = trace.offset;
         data.decimals = trace.decimals;
         data.label = trace.device + QStringLiteral(" · ") + trace.field;
         data.unit = trace.unit;
         data.color = traceColor(trace.color, palette);
+        data.dash = dashOf(trace.color);
         data.visible = trace.visible;
         data.dimmed = trace.gone || isSilent(trace);
         traces.push_back(std::move(data));
@@ -193,8 +208,8 @@ void TraceModel::refreshValues()
         describe(trace); // a register may have changed what this one measures
         if (trace.scale != before.scale || trace.offset != before.offset || trace.unit != before.unit)
             emit dataChanged(index(row), index(row));
-        const Device *device = m_session.device(trace.watch.device);
-        const History *history = m_monitor.history(trace.watch);
+        const Device *device = m_session.device(trace.key.watch.device);
+        const History *history = historyOf(trace);
         QString value;
         if (device && !trace.gone && history && !history->isEmpty())
             value = withMinus(
