@@ -1,0 +1,14 @@
+target_sources(dynascope_core PRIVATE
+    record/csvsink.cpp record/csvsink.h
+    record/mcapformat.cpp record/mcapformat.h
+    record/mcapmetadata.cpp record/mcapmetadata.h
+    record/mcapreader.cpp record/mcapreader.h
+    record/mcapsink.cpp record/mcapsink.h
+    record/mcapwriter.cpp record/mcapwriter.h
+    record/recordedvalue.cpp record/recordedvalue.h
+    record/recordfile_posix.cpp record/recordfile_posix.h
+    record/recording.cpp record/recording.h
+    record/recording_values.h
+    record/recordingsink.h
+    record/valuelayout.cpp record/valuelayout.h
+)
