@@ -9,7 +9,10 @@ namespace dynascope::mcap {
 namespace {
 
 constexpr int Version = 1;
-constexpr qsizetype MostFields = 4096;
+constexpr qsizetype MostFields = 100'000; ///< of a channel
+constexpr qsizetype MostDevices = 1000;   ///< of a channel
+constexpr qint64 LongestSpan = 2048;       ///< bytes: more fits into no packet's answer of a servo
+const QString FieldsOf = QStringLiteral("fields."); ///< and the device's number
 
 /// The texts' values by their keys, and whether all were there and in their range.
 class Reader
@@ -150,36 +153,50 @@ std::optional<RecordedDevice> deviceFrom(const Texts &texts)
     return reader.ok() ? std::optional(device) : std::nullopt;
 }
 
-Texts textsOf(quint32 device, const ValueLayout &layout)
+Texts textsOf(const ValueLayout &layout)
 {
-    QStringList fields;
-    for (const RecordedField &field : layout.fields())
-        fields << toLine(field);
+    QStringList devices;
     Texts texts;
-    add(texts, u"device", QString::number(device));
+    for (const ValueLayout::Part &part : layout.parts()) {
+        QStringList fields; // name, address, size, signed, direction bit, unit, scale, decimals
+        for (const RecordedField &field : part.fields)
+            fields << toLine(field);
+        devices << QStringLiteral("%1 %2").arg(part.device).arg(part.member);
+        texts[FieldsOf + QString::number(part.device)] = fields.join(u'\n');
+    }
+    add(texts, u"devices", devices.join(u'\n'));
     add(texts, u"address", QString::number(layout.address()));
     add(texts, u"length", QString::number(layout.length()));
-    add(texts, u"fields", fields.join(u'\n')); // name, address, size, signed, direction bit, unit, scale, decimals
     return texts;
 }
 
-std::optional<ChannelMeaning> meaningFrom(const Texts &texts)
+std::optional<ValueLayout> layoutFrom(const Texts &texts)
 {
     Reader reader(texts);
-    const auto device = static_cast<quint32>(reader.number(u"device", 0, 0xFFFFFFFFLL));
     const auto address = static_cast<std::uint16_t>(reader.number(u"address", 0, 0xFFFF));
-    const auto length = static_cast<std::uint16_t>(reader.number(u"length", 1, 0xFFFF));
-    const QStringList lines = reader.text(u"fields").split(u'\n');
-    if (!reader.ok() || lines.size() > MostFields || address + length > 0x10000)
+    const auto length = static_cast<std::uint16_t>(reader.number(u"length", 1, LongestSpan));
+    const QStringList devices = reader.text(u"devices").split(u'\n');
+    if (!reader.ok() || devices.size() > MostDevices || address + length > 0x10000)
         return std::nullopt;
-    std::vector<RecordedField> fields;
-    for (const QString &line : lines) {
-        const std::optional<RecordedField> field = fieldFromLine(line);
-        if (!field || field->address < address || field->end() > address + length)
+    qsizetype count = 0;
+    std::vector<ValueLayout::Part> parts;
+    for (const QString &line : devices) {
+        ValueLayout::Part part;
+        bool isNumber = false;
+        part.device = line.section(u' ', 0, 0).toUInt(&isNumber);
+        part.member = rosName(line.section(u' ', 1, 1));
+        const auto lines = texts.find(FieldsOf + QString::number(part.device));
+        if (!isNumber || lines == texts.end())
             return std::nullopt;
-        fields.push_back(*field);
+        for (const QString &text : lines->second.split(u'\n')) {
+            const std::optional<RecordedField> field = fieldFromLine(text);
+            if (!field || field->address < address || field->end() > address + length || ++count > MostFields)
+                return std::nullopt;
+            part.fields.push_back(*field);
+        }
+        parts.push_back(std::move(part));
     }
-    return ChannelMeaning{device, ValueLayout(address, length, std::move(fields))};
+    return ValueLayout(address, length, std::move(parts));
 }
 
 Bytes messageOf(const RecordedEvent &event)

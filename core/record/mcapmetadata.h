@@ -18,12 +18,8 @@ std::optional<RecordingHeader> headerFrom(const Texts &texts);
 Texts textsOf(const RecordedDevice &device); ///< without its fields: they are the channels'
 std::optional<RecordedDevice> deviceFrom(const Texts &texts);
 
-Texts textsOf(quint32 device, const ValueLayout &layout); ///< of a channel
-struct ChannelMeaning {
-    quint32 device = 0;
-    ValueLayout layout;
-};
-std::optional<ChannelMeaning> meaningFrom(const Texts &texts);
+Texts textsOf(const ValueLayout &layout); ///< of a channel
+std::optional<ValueLayout> layoutFrom(const Texts &texts);
 
 Bytes messageOf(const RecordedEvent &event);
 std::optional<RecordedEvent> eventFrom(ByteView message); ///< without its time

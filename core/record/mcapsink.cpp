@@ -39,21 +39,65 @@ Result<bool> McapSink::setDevice(const RecordedDevice &device)
         m_header.devices.push_back(device);
     else
         *known = device;
-    std::erase_if(m_channels, [&](const auto &entry) { return std::get<0>(entry.first) == device.key; });
+    std::erase_if(m_channels, [&](const auto &entry) {
+        const auto &devices = entry.first.second;
+        return std::find(devices.begin(), devices.end(), device.key) != devices.end();
+    });
+    m_sets.clear();
     return true;
 }
 
 Result<void> McapSink::write(const RecordedBatch &batch)
 {
-    for (const RecordedReply &reply : batch.replies) {
-        const Channel &channel = channelFor(reply);
-        if (!channel.layout)
-            continue;
-        channel.layout->encode(reply.data, m_message);
-        m_writer->addMessage(channel.id, batch.cycle, m_header.unixTime(reply.at), m_header.unixTime(batch.begin),
-                             m_message);
-    }
+    gather(batch);
+    for (std::size_t i = 0; i < m_groupCount; ++i)
+        write(m_groups[i], batch);
     return m_writer->waiting() >= Writer::ChunkSize ? flush() : Result<void>();
+}
+
+void McapSink::gather(const RecordedBatch &batch)
+{
+    m_groupCount = 0;
+    for (const RecordedReply &reply : batch.replies) {
+        const Span span{reply.address, reply.length};
+        std::size_t place = 0;
+        while (place < m_groupCount
+               && (m_groups[place].span != span
+                   || std::find(m_groups[place].devices.begin(), m_groups[place].devices.end(), reply.device)
+                       != m_groups[place].devices.end()))
+            ++place;
+        if (place == m_groups.size())
+            m_groups.emplace_back();
+        Group &group = m_groups[place];
+        if (place == m_groupCount) {
+            ++m_groupCount;
+            group.span = span;
+            group.devices.clear();
+            group.replies.clear();
+        }
+        group.devices.push_back(reply.device);
+        group.replies.push_back(&reply);
+    }
+}
+
+void McapSink::write(const Group &group, const RecordedBatch &batch)
+{
+    const std::pair key(group.span, group.devices);
+    auto channel = m_channels.find(key);
+    if (channel == m_channels.end()) {
+        const auto made = makeChannel(group);
+        if (!made) { // too many sets, or not all of its devices are recorded
+            for (std::size_t i = 0; i < group.devices.size(); ++i)
+                write(Group{group.span, {group.devices[i]}, {group.replies[i]}}, batch);
+            return;
+        }
+        channel = m_channels.emplace(key, *made).first;
+    }
+    if (!channel->second.layout)
+        return;
+    channel->second.layout->encode(group.replies, batch.begin, m_message);
+    const qint64 at = m_header.unixTime(batch.begin);
+    m_writer->addMessage(channel->second.id, batch.cycle, at, at, m_message);
 }
 
 Result<void> McapSink::write(const RecordedEvent &event)
@@ -68,49 +112,44 @@ Result<void> McapSink::write(const RecordedEvent &event)
     return {};
 }
 
-const McapSink::Channel &McapSink::channelFor(const RecordedReply &reply)
+/// Nothing where each device is better written for itself.
+std::optional<McapSink::Channel> McapSink::makeChannel(const Group &group)
 {
-    const Place place{reply.device, reply.address, reply.length};
-    const auto known = m_channels.find(place);
-    if (known != m_channels.end())
-        return known->second;
-    const RecordedDevice *device = m_header.device(reply.device);
-    return m_channels[place] = device ? makeChannel(*device, reply) : Channel();
-}
-
-McapSink::Channel McapSink::makeChannel(const RecordedDevice &device, const RecordedReply &reply)
-{
-    std::vector<RecordedField> fields;
-    for (const RecordedField &field : device.fields) {
-        if (field.address >= reply.address && field.end() <= reply.address + reply.length)
-            fields.push_back(field);
+    std::vector<ValueLayout::Part> parts;
+    std::set<QString> members;
+    for (const quint32 key : group.devices) {
+        const RecordedDevice *device = m_header.device(key);
+        ValueLayout::Part part{key, rosName(device ? device->label : QString()), {}};
+        for (const RecordedField &field : device ? device->fields : std::vector<RecordedField>()) {
+            if (field.address >= group.span.first && field.end() <= group.span.first + group.span.second)
+                part.fields.push_back(field);
+        }
+        if (!members.insert(part.member).second)
+            part.member += QStringLiteral("_device_%1").arg(key);
+        if (!part.fields.empty())
+            parts.push_back(std::move(part));
     }
-    if (fields.empty())
-        return {};
+    const bool isOne = group.devices.size() == 1;
+    if (parts.size() < group.devices.size() || (!isOne && m_sets[group.span] >= MostSets))
+        return isOne ? std::optional(Channel()) : std::nullopt;
+    m_sets[group.span] += isOne ? 0 : 1;
     Channel channel;
-    channel.layout.emplace(reply.address, reply.length, std::move(fields));
-    const QString topic = topicFor(device, *channel.layout);
-    QString type = rosName(QStringView(topic).mid(1));
-    type[0] = type[0].toUpper();
-    const std::uint16_t schema =
-        m_writer->addSchema(QStringLiteral("dynascope/msg/") + type.remove(u'_'), channel.layout->definition());
-    channel.id = m_writer->addChannel(schema, topic, textsOf(device.key, *channel.layout));
+    channel.layout.emplace(group.span.first, group.span.second, std::move(parts));
+    const QString topic = topicFor(*channel.layout);
+    const QString type = QStringLiteral("dynascope/msg/Batch%1").arg(m_topics.size());
+    const std::uint16_t schema = m_writer->addSchema(type, channel.layout->definition());
+    channel.id = m_writer->addChannel(schema, topic, textsOf(*channel.layout));
     return channel;
 }
 
-/// "/ID_1", and for what comes in replies of its own "/ID_1/present_temperature".
-QString McapSink::topicFor(const RecordedDevice &device, const ValueLayout &layout)
+/// "/devices", and for what is asked in exchanges of its own "/devices/present_temperature".
+QString McapSink::topicFor(const ValueLayout &layout)
 {
-    QString base = QStringLiteral("/");
-    for (const QChar c : device.label) {
-        const bool isPlain = c.unicode() < 0x80 && (c.isLetterOrNumber() || c == u'-');
-        base += isPlain ? c : QChar(u'_');
-    }
-    QString topic = base;
-    if (topic == u"/" || m_topics.count(topic) != 0)
-        topic = base + u'/' + rosName(layout.fields().front().name);
+    QString topic = QStringLiteral("/devices");
+    if (!m_topics.empty())
+        topic += u'/' + rosName(layout.parts().front().fields.front().name);
     const QString plain = topic;
-    for (int number = 2; !m_topics.emplace(topic, device.key).second; ++number)
+    for (int number = 2; !m_topics.insert(topic).second; ++number)
         topic = QStringLiteral("%1_%2").arg(plain).arg(number);
     return topic;
 }

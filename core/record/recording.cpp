@@ -80,34 +80,40 @@ void Recording::takeChannels()
 {
     for (const auto &[id, channel] : m_reader->channels()) {
         if (channel.topic == mcap::EventsTopic) {
-            m_channels[id] = {};
+            m_channels[id] = std::nullopt;
             continue;
         }
-        auto meaning = mcap::meaningFrom(channel.metadata);
-        if (!meaning)
+        auto layout = mcap::layoutFrom(channel.metadata);
+        if (!layout)
             continue;
-        auto device = std::find_if(m_header.devices.begin(), m_header.devices.end(),
-                                   [&](const RecordedDevice &one) { return one.key == meaning->device; });
-        if (device == m_header.devices.end()) {
-            RecordedDevice unknown;
-            unknown.key = meaning->device;
-            unknown.label = QStringLiteral("device %1").arg(unknown.key);
-            device = m_header.devices.insert(device, unknown);
-        }
-        for (const RecordedField &field : meaning->layout.fields()) {
-            const auto known = std::find_if(device->fields.begin(), device->fields.end(), [&](const RecordedField &one) {
-                return one.address == field.address && one.size == field.size;
-            });
-            if (known == device->fields.end())
-                device->fields.push_back(field);
-            else
-                *known = field;
-        }
-        m_channels[id] = {meaning->device, std::move(meaning->layout)};
+        for (const ValueLayout::Part &part : layout->parts())
+            takeFields(part);
+        m_channels[id] = std::move(layout);
     }
     for (RecordedDevice &device : m_header.devices) {
         std::sort(device.fields.begin(), device.fields.end(),
                   [](const RecordedField &a, const RecordedField &b) { return a.address < b.address; });
+    }
+}
+
+void Recording::takeFields(const ValueLayout::Part &part)
+{
+    auto device = std::find_if(m_header.devices.begin(), m_header.devices.end(),
+                               [&](const RecordedDevice &one) { return one.key == part.device; });
+    if (device == m_header.devices.end()) {
+        RecordedDevice unknown;
+        unknown.key = part.device;
+        unknown.label = QStringLiteral("device %1").arg(unknown.key);
+        device = m_header.devices.insert(device, unknown);
+    }
+    for (const RecordedField &field : part.fields) {
+        const auto known = std::find_if(device->fields.begin(), device->fields.end(), [&](const RecordedField &one) {
+            return one.address == field.address && one.size == field.size;
+        });
+        if (known == device->fields.end())
+            device->fields.push_back(field);
+        else
+            *known = field;
     }
 }
 
@@ -138,25 +144,17 @@ void Recording::takeMessage(const mcap::Message &message, Part &part) const
     if (channel == m_channels.end())
         return;
     const LineTime at = lineTime(message.logTime);
-    if (!channel->second.layout) {
+    if (!channel->second) {
         if (auto event = mcap::eventFrom(message.data)) {
             event->at = at;
             part.events.push_back(std::move(*event));
         }
         return;
     }
-    const ValueLayout &layout = *channel->second.layout;
-    RecordedReply reply;
-    if (!layout.decode(message.data, reply.data))
-        return;
-    reply.device = channel->second.device;
-    reply.address = layout.address();
-    reply.length = layout.length();
-    reply.at = at;
-    const LineTime begin = lineTime(message.publishTime);
-    if (part.batches.empty() || part.batches.back().cycle != message.sequence || part.batches.back().begin != begin)
-        part.batches.push_back({message.sequence, begin, {}});
-    part.batches.back().replies.push_back(std::move(reply));
+    if (part.batches.empty() || part.batches.back().cycle != message.sequence || part.batches.back().begin != at)
+        part.batches.push_back({message.sequence, at, {}});
+    if (!channel->second->decode(message.data, at, part.batches.back().replies) && part.batches.back().replies.empty())
+        part.batches.pop_back();
 }
 
 void ReplaySource::seek(LineTime at)

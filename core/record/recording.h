@@ -17,7 +17,7 @@ public:
     /// Its devices with all that was recorded of them. Where a field's unit changed on the way, the last one.
     const RecordingHeader &header() const { return m_header; }
     bool isWhole() const { return m_reader->isWhole(); } ///< it was ended, not cut off
-    quint64 replies() const { return m_reader->messages(); } ///< and events, as far as its index tells
+    quint64 messages() const { return m_reader->messages(); } ///< batches, about, and events, as far as its index tells
     LineTime begin() const { return m_begin; } ///< the first reply or event; begin() = end() where there is none
     LineTime end() const { return m_end; }
 
@@ -34,17 +34,13 @@ private:
     explicit Recording(std::unique_ptr<mcap::Reader> reader) : m_reader(std::move(reader)) { }
     bool takeHeader();
     void takeChannels();
+    void takeFields(const ValueLayout::Part &part);
     void takeMessage(const mcap::Message &message, Part &part) const;
     LineTime lineTime(std::uint64_t unixNs) const;
 
-    struct Channel {
-        quint32 device = 0;
-        std::optional<ValueLayout> layout; ///< none: of events
-    };
-
     std::unique_ptr<mcap::Reader> m_reader;
     RecordingHeader m_header;
-    std::map<std::uint16_t, Channel> m_channels;
+    std::map<std::uint16_t, std::optional<ValueLayout>> m_channels; ///< without a layout: of events
     LineTime m_begin{}, m_end{};
 };
 

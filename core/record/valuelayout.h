@@ -5,29 +5,38 @@
 
 namespace dynascope {
 
-/// How the fields that one reply brings stand in a message of an MCAP file: a ROS 2 message of physical values, so that
-/// PlotJuggler and Foxglove plot them as they are. A single-precision number holds what registers of one and two bytes
-/// hold, a double what those of four do: the raw value comes back exactly. A reply that did not come is one of NaNs,
-/// at which those programs break the line.
+/// How the replies of some devices to the same question stand in one message of an MCAP file: a ROS 2 message of
+/// physical values, a part for each device, so that PlotJuggler and Foxglove plot them as they are. A single-precision
+/// number holds what registers of one and two bytes hold, a double what those of four do: the raw value comes back
+/// exactly. A reply that did not come is one of NaNs, at which those programs break the line; its time is in whole
+/// microseconds from the begin of the cycle.
 class ValueLayout
 {
 public:
-    ValueLayout(std::uint16_t address, std::uint16_t length, std::vector<RecordedField> fields);
+    struct Part {
+        quint32 device = 0;
+        QString member; ///< what it is called in the message; a ROS name
+        std::vector<RecordedField> fields;
+    };
+
+    ValueLayout(std::uint16_t address, std::uint16_t length, std::vector<Part> parts);
 
     std::uint16_t address() const { return m_address; } ///< of the registers that were asked for
     std::uint16_t length() const { return m_length; }
-    const std::vector<RecordedField> &fields() const { return m_fields; }
+    const std::vector<Part> &parts() const { return m_parts; }
 
-    QString definition() const; ///< as a .msg file
-    /// Replaces `message`. `registers` begin at address(); none: asked, did not come.
-    void encode(ByteView registers, Bytes &message) const;
-    /// Replaces `registers`; empty where none came. False: the message is no such one.
-    bool decode(ByteView message, Bytes &registers) const;
+    QString definition() const; ///< as a .msg file, with those of its parts behind it
+    /// Replaces `message`. One reply for each part, in their order.
+    void encode(const std::vector<const RecordedReply *> &replies, LineTime begin, Bytes &message) const;
+    /// Appends a reply for each part. False: the message is no such one.
+    bool decode(ByteView message, LineTime begin, std::vector<RecordedReply> &replies) const;
 
 private:
+    void put(const Part &part, std::size_t first, const RecordedReply &reply, Bytes &message) const;
+
     std::uint16_t m_address, m_length;
-    std::vector<RecordedField> m_fields;
-    std::vector<std::size_t> m_offsets; ///< of each field in the message
+    std::vector<Part> m_parts;
+    std::vector<std::size_t> m_offsets; ///< in the message: of each part's time, then of its fields
     std::size_t m_size = 0;             ///< of the message
 };
 
