@@ -120,10 +120,8 @@ Result<std::unique_ptr<RecordingSink>> createRecording(const QString &path, cons
                                                                      : McapSink::create(path, header);
 }
 
-std::size_t samplesIn(const RecordedReply &reply, const std::vector<RecordedField> &fields)
+std::size_t fieldsIn(const RecordedReply &reply, const std::vector<RecordedField> &fields)
 {
-    if (reply.data.size() < reply.length || reply.data.empty())
-        return 0;
     return static_cast<std::size_t>(std::count_if(fields.begin(), fields.end(), [&](const RecordedField &field) {
         return field.address >= reply.address && field.end() <= reply.address + reply.length;
     }));

@@ -30,7 +30,7 @@ public:
 /// By the suffix of `path`: .csv, else MCAP.
 Result<std::unique_ptr<RecordingSink>> createRecording(const QString &path, const RecordingHeader &header);
 
-/// How many samples a reply brings: the fields of the device that lie whole in what was asked for. 0 where none came.
-std::size_t samplesIn(const RecordedReply &reply, const std::vector<RecordedField> &fields);
+/// How many of the device's fields lie whole in what was asked for: as many samples a reply brings, if it comes.
+std::size_t fieldsIn(const RecordedReply &reply, const std::vector<RecordedField> &fields);
 
 } // namespace dynascope
