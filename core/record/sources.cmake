@@ -1,5 +1,6 @@
 target_sources(dynascope_core PRIVATE
     record/csvsink.cpp record/csvsink.h
+    record/jsonsample.cpp record/jsonsample.h
     record/mcapformat.cpp record/mcapformat.h
     record/mcapmetadata.cpp record/mcapmetadata.h
     record/mcapreader.cpp record/mcapreader.h
@@ -13,5 +14,6 @@ target_sources(dynascope_core PRIVATE
     record/recordingsink.h
     record/recordqueue.cpp record/recordqueue.h
     record/recordwriter.cpp record/recordwriter.h
+    record/udpsender_posix.cpp record/udpsender_posix.h
     record/valuelayout.cpp record/valuelayout.h
 )
