@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/record/jsonsample.h"
 #include "core/record/recordedvalue.h"
 #include "core/table/units.h"
 #include "tests/support/builtincatalog.h"
@@ -51,6 +52,7 @@ private slots:
     void refusesToWriteOver();
     void writesCsv();
     void makesBatches();
+    void makesJson();
 
 private:
     QString path(const QString &name) const { return m_folder->filePath(name); }
@@ -255,7 +257,7 @@ void TestRecording::opensCutOffAnywhere()
         QCOMPARE(allBatches(*whole).size(), std::size_t(200));
         QCOMPARE(whole->messages(), quint64(200));
         std::size_t last = 200;
-        for (qsizetype size = content.size() - 1; size >= content.size() - 2000; --size) {
+        for (qsizetype size = content.size() - 1; size >= content.size() - 3500; --size) {
             const auto recording = opened(content.left(size));
             QVERIFY2(recording, recording ? "" : qPrintable(recording.error().text));
             QVERIFY(!(*recording)->isWhole());
@@ -377,6 +379,20 @@ void TestRecording::makesBatches()
     QCOMPARE(silent.values.size(), std::size_t(2));
     QVERIFY(silent.values[0].data.empty() && !silent.values[0].error.text.isEmpty());
     QCOMPARE(silent.values[0].length, std::uint16_t(2));
+}
+
+void TestRecording::makesJson()
+{
+    RecordingHeader header = recordingHeader(2);
+    header.devices[1].label = u"left \"arm\""_s;
+    RecordedBatch batch{0, RecordingBegin, {{1, 132, 4, {0, 8, 0, 0}, {}}, {2, 126, 2, {0xFF, 0xFF}, {}}, {2, 132, 4, {}, {}}}};
+    QCOMPARE(jsonSamples(batch, header, 1000),
+             QByteArrayList{R"({"timestamp":1790000000.123457,"ID 1":{"Present Position":180.00},)"
+                            R"("left \"arm\"":{"Present Current":-2.69}})"});
+    QCOMPARE(jsonSamples(batch, header, 80).size(), 2); // as much as a datagram holds
+    batch.replies.resize(3);
+    batch.replies.erase(batch.replies.begin(), batch.replies.begin() + 2);
+    QVERIFY(jsonSamples(batch, header, 1000).isEmpty());
 }
 
 DYNASCOPE_CORE_TEST(TestRecording)
