@@ -36,6 +36,7 @@ ExitCode profileCommand(const Work &work);
 ExitCode profileSaveCommand(const Work &work); ///< the part of it that writes the file
 ExitCode readCommand(const Work &work);
 ExitCode rebootCommand(const Work &work);
+ExitCode recordCommand(const Work &work);
 ExitCode resetCommand(const Work &work);
 ExitCode restoreCommand(const Work &work);
 ExitCode scanCommand(const Work &work);
@@ -55,6 +56,9 @@ MoveFile moveFileOf(const Options &options);
 /// Of two files, without a line.
 ExitCode compareFilesCommand(const Catalog &catalog, const Options &options, Output &output);
 ExitCode completionCommand(const Catalog &catalog, const Options &options, Output &output);
+/// Of a recording, without a line.
+ExitCode convertCommand(const Options &options, Output &output);
+ExitCode replayCommand(const Options &options, Output &output);
 ExitCode journalCommand(const Catalog &catalog, Options options, Output &output);
 ExitCode portsCommand(Output &output);
 ExitCode versionCommand(Output &output);

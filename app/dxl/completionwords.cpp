@@ -101,7 +101,7 @@ ValuedOption valued(const QString &name, const Catalog &catalog, const QStringLi
     const QStringList rates = split(u"9600 57600 115200 1000000 2000000 3000000 4000000 4500000");
     if (name == u"--port")
         return {name, split(u"sim tcp:// rfc2217://"), true};
-    if (name == u"--link" || name == u"--bus" || name == u"--folder")
+    if (name == u"--link" || name == u"--bus" || name == u"--folder" || name == u"--output")
         return {name, {}, true};
     if (name == u"--baud")
         return {name, rates};

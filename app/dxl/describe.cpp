@@ -18,10 +18,11 @@ struct Name {
 constexpr std::array Names{
     Name{"backup", Command::Backup}, Name{"clear", Command::Clear}, Name{"commission", Command::Commission},
     Name{"compare", Command::Compare}, Name{"completion", Command::Completion},
+    Name{"convert", Command::Convert},
     Name{"info", Command::Info},     Name{"journal", Command::Journal}, Name{"led", Command::Led},
     Name{"models", Command::Models}, Name{"move", Command::Move},     Name{"packet", Command::Packet},
     Name{"ping", Command::Ping},     Name{"ports", Command::Ports},   Name{"profile", Command::Profile},
-    Name{"read", Command::Read},     Name{"reboot", Command::Reboot}, Name{"reset", Command::Reset},
+    Name{"read", Command::Read},     Name{"reboot", Command::Reboot}, Name{"record", Command::Record}, Name{"replay", Command::Replay}, Name{"reset", Command::Reset},
     Name{"restore", Command::Restore}, Name{"scan", Command::Scan},
     Name{"sim", Command::Sim},       Name{"stats", Command::Stats},   Name{"stop", Command::Stop},
     Name{"table", Command::Table},   Name{"torque", Command::Torque}, Name{"version", Command::Version},
@@ -86,6 +87,7 @@ void describe(CLI::App &app, Typed &typed)
     describeGlobals(app, typed);
     describeFinding(app, typed);
     describeRegisters(app, typed);
+    describeRecordings(app, typed);
     describeActions(app, typed);
     describePacket(app, typed);
     typed.move.describe(app);

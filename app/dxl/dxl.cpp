@@ -28,6 +28,7 @@ ExitCode performOnLine(const Work &work)
     case Command::Profile: return profileCommand(work);
     case Command::Read: return readCommand(work);
     case Command::Reboot: return rebootCommand(work);
+    case Command::Record: return recordCommand(work);
     case Command::Reset: return resetCommand(work);
     case Command::Restore: return restoreCommand(work);
     case Command::Scan: return scanCommand(work);
@@ -39,9 +40,11 @@ ExitCode performOnLine(const Work &work)
     case Command::Watch: return watchCommand(work);
     case Command::Write: return writeCommand(work);
     case Command::Completion:
+    case Command::Convert:
     case Command::Journal:
     case Command::Models:
     case Command::Ports:
+    case Command::Replay:
     case Command::Sim:
     case Command::Version: break; // need no line
     }
@@ -111,19 +114,22 @@ ExitCode perform(const Options &options, Output &output)
         return compareFilesCommand(*catalog, options, output);
     switch (options.command) {
     case Command::Completion: return completionCommand(*catalog, options, output);
+    case Command::Convert: return convertCommand(options, output);
     case Command::Journal: return journalCommand(*catalog, options, output);
     case Command::Models: return modelsCommand(*catalog, options.models, output);
     case Command::Ports: return portsCommand(output);
+    case Command::Replay: return replayCommand(options, output);
     case Command::Sim: return simCommand(*catalog, options, output);
     case Command::Version: return versionCommand(output);
     default: return connectAndPerform(*catalog, options, output);
     }
 }
 
-/// Being interrupted is how `stats` may end, with its report.
+/// Being interrupted is how `stats` and `record` may end, with their report.
 ExitCode finalCode(const Options &options, const Output &output, ExitCode code)
 {
-    if (interrupted() && (options.command != Command::Stats || code != ExitCode::Done))
+    const bool mayBe = options.command == Command::Stats || options.command == Command::Record;
+    if (interrupted() && (!mayBe || code != ExitCode::Done))
         return ExitCode::Interrupted;
     if (!output.isClosed() || code != ExitCode::Done)
         return code;

@@ -184,6 +184,10 @@ Result<Options> understand(const CLI::App &app, const Typed &typed)
             return tl::unexpected(commission.error());
         options.commission = std::move(*commission);
     }
+    auto record = typed.record.understand();
+    if (!record)
+        return tl::unexpected(record.error());
+    options.record = std::move(*record);
     if (options.command == Command::Packet) {
         if (const Result<void> understood = understandPacket(options, typed); !understood)
             return tl::unexpected(understood.error());

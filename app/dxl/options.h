@@ -8,6 +8,7 @@
 #include "app/dxl/modelsarguments.h"
 #include "app/dxl/moveoptions.h"
 #include "app/dxl/profileoptions.h"
+#include "app/dxl/recordoptions.h"
 #include "app/dxl/simoptions.h"
 #include "core/protocol/protocol_values.h"
 
@@ -31,6 +32,7 @@ enum class Command {
     Commission,
     Compare,
     Completion,
+    Convert,
     Info,
     Journal,
     Led,
@@ -42,6 +44,8 @@ enum class Command {
     Profile,
     Read,
     Reboot,
+    Record,
+    Replay,
     Reset,
     Restore,
     Scan,
@@ -102,6 +106,7 @@ struct Options {
     MoveOptions move;
     CommissionWishes commission;
     ProfileOptions profile;
+    RecordOptions record;
 };
 
 /// Where there is nothing to do (--help, --version: Done) or it makes no sense (Usage), that has been printed.

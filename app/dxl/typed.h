@@ -35,6 +35,7 @@ struct Typed {
     MoveArguments move;
     CommissionArguments commission;
     ProfileArguments profile;
+    RecordArguments record;
 };
 
 /// The one description of commands and options: what is parsed, helped with, completed and checked against the manual
@@ -47,6 +48,7 @@ void describeFinding(CLI::App &app, Typed &typed);   ///< ports, scan, ping, inf
 void describeRegisters(CLI::App &app, Typed &typed); ///< table, read, write, watch, stats
 void describeActions(CLI::App &app, Typed &typed);   ///< torque, led, reboot, reset, clear, stop
 void describePacket(CLI::App &app, Typed &typed);
+void describeRecordings(CLI::App &app, Typed &typed); ///< record, replay, convert
 void describeModels(CLI::App &app, ModelsArguments &typed);
 void addIds(CLI::App &command, Typed &typed); ///< the devices, as a positional argument
 /// @}

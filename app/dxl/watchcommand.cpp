@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
 #include "app/dxl/interrupt.h"
+#include "app/dxl/pace.h"
 #include "app/dxl/target.h"
 #include "app/dxl/watchedfields.h"
 #include "core/bus/poller.h"
@@ -12,41 +13,6 @@ namespace dynascope::dxl {
 namespace {
 
 using namespace std::chrono_literals;
-
-double seconds(LineTime duration)
-{
-    return std::chrono::duration<double>(duration).count();
-}
-
-LineTime fromSeconds(double value)
-{
-    return std::chrono::duration_cast<LineTime>(std::chrono::duration<double>(value));
-}
-
-/// When each sample is due: on a grid from the begin on, so that the rate holds; a slot that passed is left out.
-class Pace
-{
-public:
-    Pace(const Options &options, LineTime begin)
-        : m_period(options.rate > 0 ? fromSeconds(1 / options.rate) : LineTime())
-        , m_next(begin)
-        , m_end(options.seconds ? begin + fromSeconds(*options.seconds) : LineTime::max())
-    {
-    }
-
-    bool isOver(LineTime now) const { return now >= m_end; }
-    LineTime until(LineTime now) const { return std::min(m_next, m_end) - now; }
-    void taken(LineTime now)
-    {
-        if (m_period <= 0ns)
-            return;
-        const auto passed = std::max<LineTime::rep>(0, (now - m_next) / m_period);
-        m_next += (passed + 1) * m_period;
-    }
-
-private:
-    LineTime m_period, m_next, m_end;
-};
 
 /// Says when a device falls silent, and when it is back; not each time.
 void noteSilence(const Work &work, std::vector<WatchedField> &fields, const Batch &batch)
@@ -81,7 +47,7 @@ Result<void> watch(const Work &work, std::vector<WatchedField> &fields, LineTime
 {
     Poller poller(work.bus);
     poller.setPlan(planOf(work.bus, fields));
-    Pace pace(work.options, begin);
+    Pace pace(work.options.rate, work.options.seconds, begin);
     Batch batch;
     const auto limit = static_cast<quint64>(work.options.count.value_or(0));
     while (!work.output.isClosed() && !pace.isOver(work.bus.line().now()) && (limit == 0 || taken.samples < limit)) {

@@ -38,7 +38,7 @@ const std::vector<Rule> &rules()
         {"core/session/", values + QStringList{u"core/session/*"_s, u"core/bus/*"_s, u"core/table/*"_s,
                                                u"core/yaml/*"_s, u"core/protocol/protocol_values.h"_s}},
         {"core/record/", values + QStringList{u"core/record/*"_s, u"core/bus/*_values.h"_s,
-                                              u"core/session/*_values.h"_s}},
+                                              u"core/session/*_values.h"_s, u"core/table/*"_s}},
         {"core/", values},
         {"ui/traffic/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s,
                                              u"core/protocol/*"_s, u"core/bus/*_values.h"_s}},
@@ -173,6 +173,9 @@ void TestLayering::judges_data()
     row("core/session/session.h", "core/sim/demo.h", true, false);
     row("core/session/profile/profile.cpp", "core/yaml/yamltree.h", true, true);
     row("core/yaml/yamltree.h", "core/table/field.h", true, false);
+    row("core/record/recorder.h", "core/bus/poll_values.h", true, true);
+    row("core/record/recorder.h", "core/bus/bus.h", true, false);
+    row("core/record/recorder.h", "core/session/device.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/poll_values.h", true, true);
     row("ui/plot/plot.cpp", "core/bus/bus.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/linefactory.h", true, false);

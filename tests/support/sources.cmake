@@ -11,6 +11,7 @@ target_sources(dynascope_test_support PRIVATE
     support/nullline.cpp support/nullline.h
     support/oracle.cpp support/oracle.h
     support/profileworld.h
+    support/recordings.h
     support/sanitized.h
     support/tablefacts.cpp support/tablefacts.h
     support/servobench.h
