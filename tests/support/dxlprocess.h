@@ -24,6 +24,7 @@ public:
     explicit RunningDxl(const QStringList &arguments);
     ~RunningDxl();
 
+    bool hasEnded();
     Outcome interrupt(); ///< as Ctrl-C does; waits for the end
     Outcome finish();    ///< waits for the end
 

@@ -59,6 +59,11 @@ RunningDxl::~RunningDxl()
     m_process.waitForFinished(Patience);
 }
 
+bool RunningDxl::hasEnded()
+{
+    return m_process.state() == QProcess::NotRunning || m_process.waitForFinished(0);
+}
+
 Outcome RunningDxl::interrupt()
 {
     ::kill(static_cast<pid_t>(m_process.processId()), SIGINT);
