@@ -20,6 +20,14 @@ void *operator new(std::size_t size)
     throw std::bad_alloc();
 }
 
+/// std::stable_sort asks by this one, and gives back by the one below.
+void *operator new(std::size_t size, const std::nothrow_t &) noexcept
+try {
+    return operator new(size);
+} catch (const std::bad_alloc &) {
+    return nullptr;
+}
+
 void operator delete(void *memory) noexcept
 {
     std::free(memory);
