@@ -53,8 +53,10 @@ private slots:
                 QVERIFY(everybodyIsSomewhere(bus, {1, 2}, {57600, rate}));
                 const bool begun = MoveFile(MoveFile::usualFolder(), bus.path(), {}).exists();
                 const bool over = !begun && model(bus, ends[0].toInt(), rate) == u"XM430-W350"; // killed as it said so
-                const Outcome again
-                    = over ? Outcome{0, {}, {}} : run(bus, begun ? QStringList{u"move"_s, u"--resume"_s} : wish);
+                const QStringList onward = begun ? QStringList{u"move"_s, u"--resume"_s} : wish;
+                Outcome again{over ? 0 : -1, {}, {}};
+                for (int run = 0; run < 3 && again.code != 0; ++run) // where a loaded machine let an answer be missed
+                    again = this->run(bus, onward);
                 QVERIFY2(again.code == 0, qPrintable(u"killed at %1: %2"_s.arg(place).arg(again.err)));
             }
             QCOMPARE(model(bus, ends[0].toInt(), rate), u"XM430-W350"_s);
