@@ -43,7 +43,7 @@ Document changeDocument(const RegisterChange &change)
     Document document;
     if (!change.name.isEmpty())
         document.add("register", change.name);
-    document.add("address", qint64(change.address)).add("length", qint64(change.after.size()));
+    document.add("address", qint64(change.address)).add("length", qint64(lengthOf(change)));
     if (!change.before.empty())
         document.add("old", bytesText(change.before, change.isSigned));
     document.add("new", bytesText(change.after, change.isSigned));

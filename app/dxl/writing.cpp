@@ -97,8 +97,18 @@ Result<Bytes> writeNoted(const Work &work, Device &device, const Assignment &ass
     plan.before = plan.sideEffects;
     if (change.before.empty())
         plan.before.push_back({device.id(), change.address, static_cast<std::uint16_t>(change.after.size())});
-    JournalNote note = noteWrite(work, device, {change}, affected);
     DirectJob job(device.bus());
+    JournalEntry known;
+    known.changes = {change};
+    if (assignment.field && !assignment.field->resets.isEmpty()) { // noted before, should nobody live to note it behind
+        if (const auto values = readSpans(job, {plan.place, plan.before})) {
+            if (change.before.empty())
+                known.changes.front().before = bytesIn(*values, change.address, change.after.size());
+            addResets(known, *device.table(), *assignment.field,
+                      [&values](const Field &other) { return bytesIn(*values, other.address, other.size); });
+        }
+    }
+    JournalNote note = noteWrite(work, device, std::move(known.changes), affected);
     const auto written = writeField(job, plan);
     const auto before = written ? written->before : std::vector<PollValue>();
     const auto after = written ? written->after : tl::unexpected(written.error());

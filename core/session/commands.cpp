@@ -123,7 +123,7 @@ void Commands::sendWrite(Device &device, int fieldIndex, std::int64_t raw, Done 
         });
 }
 
-/// The old value as last seen: what is read before the write replaces it.
+/// The old values as last seen: what is read before the write replaces them.
 JournalNote Commands::noteWrite(const Device &device, const Field &field, std::int64_t raw,
                                 const std::vector<const Field *> &affected) const
 {
@@ -132,8 +132,12 @@ JournalNote Commands::noteWrite(const Device &device, const Field &field, std::i
     JournalEntry entry;
     entry.device = journalDevice(device);
     entry.changes = {changeOf(field, raw)};
-    if (const auto old = device.value(device.table().indexOf(&field)).raw)
-        entry.changes.front().before = bytesFromRaw(field, *old);
+    if (const auto now = device.value(device.table().indexOf(&field)).raw)
+        entry.changes.front().before = bytesFromRaw(field, *now);
+    addResets(entry, device.table(), field, [&device](const Field &other) {
+        const auto old = device.value(device.table().indexOf(&other)).raw;
+        return old ? bytesFromRaw(other, *old) : Bytes();
+    });
     return {m_journal, std::move(entry), affected};
 }
 

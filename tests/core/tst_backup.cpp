@@ -2,6 +2,7 @@
 #include "core/session/backup/restore.h"
 #include "tests/support/backupworld.h"
 #include "tests/support/builtincatalog.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/testmain.h"
 
 #include <random>
@@ -160,6 +161,56 @@ private slots:
             QCOMPARE(unequal(compareBackups(*file, *world.backup())), QStringList());
         }
         QVERIFY2(!wasReached && at > 3, qPrintable(QString::number(at)));
+    }
+
+    void disturbed_data()
+    {
+        QTest::addColumn<sim::ReplyFault>("fault");
+        using Kind = sim::ReplyFault::Kind;
+        for (const int times : {1, 3}) {
+            QTest::addRow("lost, %d", times) << sim::ReplyFault{.kind = Kind::Lost, .times = times};
+            QTest::addRow("damaged, %d", times) << sim::ReplyFault{.kind = Kind::Damaged, .times = times};
+            QTest::addRow("late, %d", times)
+                << sim::ReplyFault{.kind = Kind::Late, .times = times, .time = std::chrono::milliseconds(30)};
+            QTest::addRow("cut, %d", times) << sim::ReplyFault{.kind = Kind::Cut, .times = times, .amount = 5};
+            QTest::addRow("twice, %d", times)
+                << sim::ReplyFault{.kind = Kind::Twice, .times = times, .time = std::chrono::milliseconds(1)};
+        }
+    }
+    /// Every other answer, also while the device is read first: restored, or a reason; and the same once more ends well.
+    void disturbed()
+    {
+        QFETCH(sim::ReplyFault, fault);
+        int done = 0, most = 1;
+        for (int at = 0; at < most; at += test::Sanitized ? 12 : 2) {
+            BackupWorld world(m_catalog, u"XM430-W350@57600:1"_s);
+            const auto file = world.backup();
+            QVERIFY(disturb(world.servo(), 3, 1) > 2);
+            const auto good = world.plan(*file);
+            most = 2 * static_cast<int>(world.packets() + good->count(State::Differs)); // more than ever come
+            fault.skip = at;
+            world.bus.setFaults({.replies = {fault}});
+            const auto plan = world.plan(*file);
+            const auto outcome =
+                plan ? world.apply(plan->settings) : Result<SettingsOutcome>(tl::unexpected(plan.error()));
+            world.bus.setFaults({});
+            world.bus.advanceTo(world.bus.now() + std::chrono::seconds(1));
+            const bool isDone = outcome && outcome->isDone() && outcome->results.size() == good->settings.steps.size();
+            done += isDone ? 1 : 0;
+            QVERIFY2(isDone || !test::problemsOf(outcome).isEmpty(), qPrintable(QString::number(at)));
+            if (isDone)
+                QCOMPARE(unequal(compareBackups(*file, *world.backup())), QStringList());
+            for (const RestoreRow &row : good->rows) {
+                const std::int64_t now = world.servo().value(row.name);
+                QVERIFY2(now == row.now || now == row.wanted, qPrintable(u"%1 is %2 behind answer %3"_s.arg(row.name)
+                                                                             .arg(now).arg(at)));
+            }
+            const auto again = world.plan(*file);
+            const auto restored = world.apply(again->settings);
+            QVERIFY2(restored && restored->isDone(), qPrintable(test::problemsOf(restored)));
+            QCOMPARE(unequal(compareBackups(*file, *world.backup())), QStringList());
+        }
+        QVERIFY2(most > 10 && done > 0, qPrintable(u"%1 of %2"_s.arg(done).arg(most)));
     }
 
     void underTorque()

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/session/deviceplace.h"
-#include "core/session/procedures/movedevices.h"
 #include "tests/support/builtincatalog.h"
-#include "tests/support/mortalline.h"
-#include "tests/support/sessionfixture.h"
+#include "tests/support/moveworld.h"
 #include "tests/support/testmain.h"
 
 #include <QFile>
 
 using namespace dynascope;
 using namespace Qt::StringLiterals;
-using test::Forever, test::MortalLine;
+using test::devicesOf, test::Forever, test::MortalLine;
 
 namespace {
 
@@ -214,23 +211,6 @@ private slots:
     }
 
 private:
-    std::vector<MoveDevice> devicesOf(const sim::SimulatedBus &bus, const std::vector<MovePlace> &goals) const
-    {
-        std::vector<MoveDevice> devices;
-        for (std::size_t i = 0; i < bus.servos().size(); ++i) {
-            const sim::Servo &servo = *bus.servos()[i];
-            const Found found{static_cast<std::uint8_t>(servo.id()),
-                              servo.baudRate(),
-                              static_cast<std::uint16_t>(servo.table().modelNumber()),
-                              static_cast<std::uint8_t>(servo.firmware()),
-                              false,
-                              {}};
-            devices.push_back(moveDevice(found, servo.table(), u"%1 #%2"_s.arg(servo.model()).arg(servo.id())));
-            devices.back().goal = goals[i];
-        }
-        return devices;
-    }
-
     const Catalog m_catalog = test::builtInCatalog();
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/builtincatalog.h"
 #include "tests/support/sessionfixture.h"
+#include "tests/support/settingsworld.h"
 #include "tests/support/testmain.h"
 
 #include <QFile>
@@ -75,6 +76,47 @@ private slots:
             QVERIFY(journal.entries()[at].state == JournalState::Unconfirmed && !journal.entries()[at].movedTo);
     }
 
+    void severalDisturbed_data()
+    {
+        QTest::addColumn<sim::ReplyFault>("fault");
+        using Kind = sim::ReplyFault::Kind;
+        for (const int times : {1, 3}) {
+            QTest::addRow("lost, %d", times) << sim::ReplyFault{.kind = Kind::Lost, .times = times};
+            QTest::addRow("damaged, %d", times) << sim::ReplyFault{.kind = Kind::Damaged, .times = times};
+            QTest::addRow("late, %d", times)
+                << sim::ReplyFault{.kind = Kind::Late, .times = times, .time = std::chrono::milliseconds(30)};
+        }
+    }
+    /// Each answer in turn: who is reset is so as a whole, where it is said to stand it stands, and the others are reset
+    /// the next time. Without session and bus thread, for the sake of virtual time.
+    void severalDisturbed()
+    {
+        QFETCH(sim::ReplyFault, fault);
+        int done = 0;
+        for (int skip = 0; skip < 16; ++skip) {
+            test::SettingsWorld world(m_catalog, QStringLiteral("XM430-W350@1000000:5,XM430-W350@1000000:6"));
+            for (sim::Servo *servo : world.all)
+                servo->write(u"Moving Threshold", 33);
+            world.bus.advanceTo(world.bus.now() + std::chrono::seconds(1));
+            fault.skip = skip;
+            world.bus.setFaults({.replies = {fault}});
+            const QStringList problems = resetAll(world);
+            for (sim::Servo *servo : world.all) {
+                const bool isReset = servo->baudRate() == 57600;
+                QVERIFY(isReset || (servo->baudRate() == 1'000'000 && !problems.isEmpty()));
+                QCOMPARE(servo->value(u"Moving Threshold"), isReset ? 10 : 33);
+            }
+            done += problems.isEmpty() ? 1 : 0;
+            world.bus.setFaults({});
+            QCOMPARE(resetAll(world), QStringList());
+            for (sim::Servo *servo : world.all) {
+                QCOMPARE(servo->baudRate(), 57600);
+                QCOMPARE(servo->value(u"Moving Threshold"), 10);
+            }
+        }
+        QVERIFY(done > 0);
+    }
+
     void oneOfTwoAxesKeepsItsId()
     {
         Catalog catalog = test::builtInCatalog();
@@ -93,6 +135,35 @@ private slots:
     }
 
 private:
+    /// Of those that aren't yet; what was in the way.
+    static QStringList resetAll(test::SettingsWorld &world)
+    {
+        test::MortalLine line(world.bus, 1'000'000);
+        Bus program(line);
+        DirectContext context(program);
+        QStringList problems;
+        for (const sim::Servo *servo : world.all) {
+            if (servo->baudRate() == 57600)
+                continue;
+            const DevicePlace place = test::placeOf(*servo);
+            DevicePlace after = place;
+            after.baudRate = 57600;
+            const auto sent = resetToFactory(context, {place, ResetOption::AllButId, after});
+            line.advance(std::chrono::seconds(1)); // it boots
+            const auto found = lookForMoved(context, place, after);
+            if (found && found->baudRate != servo->baudRate())
+                QTest::qFail("it is said to be where it isn't", __FILE__, __LINE__);
+            if (!sent)
+                problems << sent.error().text;
+            else if (!found)
+                problems << found.error().text;
+            else if (!isAt(*found, after))
+                problems << QStringLiteral("it did not take it");
+        }
+        world.bus.advanceTo(line.now() + std::chrono::seconds(1));
+        return problems;
+    }
+
     const Catalog m_catalog = test::builtInCatalog();
 };
 

@@ -243,6 +243,7 @@ joints:
         QElapsedTimer timer;
         timer.start();
         const auto profile = loadProfile(path, m_catalog);
+        QVERIFY2(timer.elapsed() < 500, qPrintable(QString::number(timer.elapsed())));
         QVERIFY(!profile);
         QVERIFY2(profile.error().text.contains(u"larger than"), qPrintable(profile.error().text));
         QVERIFY(!profileText(path));

@@ -86,7 +86,7 @@ QJsonObject toObject(const RegisterChange &change)
     if (!change.name.isEmpty())
         object.insert(QLatin1String("register"), change.name.left(LongestText));
     object.insert(QLatin1String("address"), change.address);
-    object.insert(QLatin1String("size"), static_cast<int>(change.after.size()));
+    object.insert(QLatin1String("size"), static_cast<int>(lengthOf(change)));
     if (change.isSigned)
         object.insert(QLatin1String("signed"), true);
     const auto add = [&](QLatin1String key, const Bytes &bytes) {
@@ -113,7 +113,7 @@ std::optional<RegisterChange> changeOf(const QJsonObject &object)
         return bytesOf(object.value(QLatin1String(key)), static_cast<std::size_t>(*size));
     };
     const auto before = bytes("old"), after = bytes("new"), shown = bytes("read");
-    if (!before || !after || after->empty() || !shown)
+    if (!before || !after || (before->empty() && after->empty()) || !shown)
         return std::nullopt;
     change.before = *before;
     change.after = *after;
@@ -181,6 +181,8 @@ Result<void> takeChanges(const QJsonObject &object, JournalEntry &entry)
         if (!change)
             return damaged(QStringLiteral("a register of an entry makes no sense"));
         entry.changes.push_back(*change);
+        if (entry.changes.front().after.empty()) // of side effects alone it may be unknown
+            return damaged(QStringLiteral("a write says not what was written"));
     }
     if (entry.kind == JournalKind::Write && entry.changes.empty())
         return damaged(QStringLiteral("a write changes no register"));
@@ -189,11 +191,16 @@ Result<void> takeChanges(const QJsonObject &object, JournalEntry &entry)
 
 } // namespace
 
+std::size_t lengthOf(const RegisterChange &change)
+{
+    return std::max(change.before.size(), change.after.size());
+}
+
 QString registerText(const RegisterChange &change)
 {
     if (!change.name.isEmpty())
         return change.name;
-    return QStringLiteral("%1:%2").arg(change.address).arg(change.after.size());
+    return QStringLiteral("%1:%2").arg(change.address).arg(lengthOf(change));
 }
 
 QString bytesText(const Bytes &bytes, bool isSigned)

@@ -20,12 +20,13 @@ struct RegisterChange {
     std::uint16_t address = 0;
     bool isSigned = false; ///< how a person reads it
     Bytes before;          ///< empty: not known
-    Bytes after;           ///< what was written; of a side effect what was read afterwards
+    Bytes after;           ///< what was written; of a side effect what was read afterwards, empty: not known (yet)
     Bytes shown;           ///< read back; empty: it could not be read
 
     friend bool operator==(const RegisterChange &, const RegisterChange &) = default;
 };
 
+std::size_t lengthOf(const RegisterChange &change); ///< bytes
 /// "Goal Position", or "116:4" where it has no name.
 QString registerText(const RegisterChange &change);
 /// The raw number, or hexadecimal pairs of what is longer than 4 bytes; "?" of no bytes.

@@ -21,9 +21,17 @@ void JournalNote::finish(const JournalEntry &outcome)
         m_journal->finish(m_number, outcome);
 }
 
-void JournalNote::done(std::span<const PollValue> before, std::span<const PollValue> after)
+/// Without what the write might have reset, now that it is known whether it has.
+JournalEntry JournalNote::asKnown() const
 {
     JournalEntry outcome = m_entry;
+    std::erase_if(outcome.changes, [](const RegisterChange &change) { return change.after.empty(); });
+    return outcome;
+}
+
+void JournalNote::done(std::span<const PollValue> before, std::span<const PollValue> after)
+{
+    JournalEntry outcome = asKnown();
     outcome.state = JournalState::Done;
     if (!outcome.changes.empty())
         takeReadings(outcome, m_affected, before, after);
@@ -32,18 +40,22 @@ void JournalNote::done(std::span<const PollValue> before, std::span<const PollVa
 
 void JournalNote::done()
 {
-    JournalEntry outcome = m_entry;
+    JournalEntry outcome = asKnown();
     outcome.state = JournalState::Done;
     finish(outcome);
 }
 
 void JournalNote::failed(const Error &error, std::span<const PollValue> before)
 {
-    JournalEntry outcome = m_entry;
+    JournalEntry outcome = stateAfter(error) == JournalState::Failed ? asKnown() : m_entry;
     outcome.state = stateAfter(error);
     outcome.note = error.text;
     if (!outcome.changes.empty())
         takeReadings(outcome, {}, before, {});
+    for (RegisterChange &change : outcome.changes) {
+        if (Bytes old = bytesIn(before, change.address, lengthOf(change)); change.after.empty() && !old.empty())
+            change.before = std::move(old);
+    }
     finish(outcome);
 }
 

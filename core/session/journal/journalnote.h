@@ -31,6 +31,7 @@ private:
     Journal *m_journal = nullptr;
     qint64 m_number = 0;
     JournalEntry m_entry;
+    JournalEntry asKnown() const;
     std::vector<RegisterChange> m_affected;
 };
 

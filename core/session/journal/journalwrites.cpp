@@ -98,6 +98,19 @@ RegisterChange changeOf(const Field &field, std::int64_t after)
     return changeOf(field, bytesFromRaw(field, after));
 }
 
+void addResets(JournalEntry &entry, const ControlTable &table, const Field &field,
+               const std::function<Bytes(const Field &)> &before)
+{
+    for (const QString &name : field.resets) {
+        const Field *other = table.find(name);
+        const bool counts = other && other->isWritable() && other != &field && !isGoal(*other)
+                            && other != table.find(Known::TorqueEnable);
+        Bytes old = counts ? before(*other) : Bytes();
+        if (!old.empty())
+            entry.changes.push_back({other->name, other->address, other->isSigned, std::move(old), {}, {}});
+    }
+}
+
 Bytes bytesIn(std::span<const PollValue> values, int address, std::size_t length)
 {
     for (const PollValue &value : values) {

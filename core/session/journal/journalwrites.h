@@ -41,6 +41,10 @@ std::function<bool(const Field &)> among(std::vector<const Field *> fields);
 /// The field as an entry's change, nothing read yet.
 RegisterChange changeOf(const Field &field, Bytes after);
 RegisterChange changeOf(const Field &field, std::int64_t after);
+/// Behind the entry's own change, what the table says that a write to `field` resets, with the values of before: should
+/// nobody live to note what became of it, these are known. Not the goals, which nobody would want back unasked.
+void addResets(JournalEntry &entry, const ControlTable &table, const Field &field,
+               const std::function<Bytes(const Field &)> &before);
 /// The bytes at `address` in what was read; empty where it isn't in there.
 Bytes bytesIn(std::span<const PollValue> values, int address, std::size_t length);
 /// Completes `entry.changes` of what was read before and after a write: the first change's old and read-back value, and

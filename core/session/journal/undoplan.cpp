@@ -55,7 +55,7 @@ bool wouldSwitchOn(const JournalEntry &entry, Direction direction)
 
 bool overlaps(const Field &field, const RegisterChange &change)
 {
-    return field.address < change.address + static_cast<int>(change.after.size()) && field.end() > change.address;
+    return field.address < change.address + static_cast<int>(lengthOf(change)) && field.end() > change.address;
 }
 
 RevertRegister revertRegister(const RegisterChange &change, Direction direction, const ControlTable *table)
@@ -76,7 +76,7 @@ RevertRegister revertRegister(const RegisterChange &change, Direction direction,
         one.mayWait = one.mayWait && !isIndirectData(field);
     }
     const Field *only = table ? table->at(change.address) : nullptr; // written by its address it has no name
-    if (only && only->size == change.after.size() && isIndirectData(*only)) {
+    if (only && only->size == lengthOf(change) && isIndirectData(*only)) {
         const Field *pointer =
             table->find(QString(only->name).replace(QLatin1String("Data"), QLatin1String("Address")));
         if (pointer && pointer->size == 2)
@@ -180,12 +180,10 @@ bool isAboutTheSame(const JournalEntry *taken, const JournalEntry &by)
                && taken->changes.front().address == by.changes.front().address);
 }
 
-/// A later entry that stands and changed the same register of the same device; 0: none. Torque is not taken back
-/// anyway.
-qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry)
+/// A later entry that stands and changed the register of this change, too; 0: none. Torque is not taken back anyway.
+qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry, const RegisterChange &what)
 {
-    const RegisterChange &main = entry.changes.front();
-    if (isRegister(main, Known::TorqueEnable))
+    if (isRegister(what, Known::TorqueEnable))
         return 0;
     const std::set<qint64> undone = undoneEntries(entries);
     JournalPlace place = entry.movedTo.value_or(JournalPlace{entry.device.id, entry.device.baudRate});
@@ -196,14 +194,21 @@ qint64 changedSince(const JournalEntries &entries, const JournalEntry &entry)
             continue;
         const bool touches = std::ranges::any_of(later.changes, [&](const RegisterChange &change) {
             const bool follows = &change != &later.changes.front() && isGoalName(change.name);
-            return !follows && change.address < main.address + static_cast<int>(main.after.size())
-                   && main.address < change.address + static_cast<int>(change.after.size());
+            return !follows && change.address < what.address + static_cast<int>(lengthOf(what))
+                   && what.address < change.address + static_cast<int>(lengthOf(change));
         });
         if (touches && isPlain(later) && !undone.contains(later.number))
             return later.number;
         place = later.movedTo.value_or(place);
     }
     return 0;
+}
+
+/// Nobody lived to note what the write made of this register: whatever it holds gives way, unless it was written since.
+bool putsBackUnknown(const JournalEntries &entries, const JournalEntry &entry, const RegisterChange &change,
+                     Direction direction)
+{
+    return direction == Direction::Undo && changedSince(entries, entry, change) == 0;
 }
 
 } // namespace
@@ -322,6 +327,10 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     if (torque)
         step.registers.torqueAddress = step.place.torqueAddress = torque->address;
     const RegisterChange &main = entry.changes.front();
+    step.mayBeDone = std::ranges::any_of(entries, [&](const JournalEntry &each) {
+        const bool isTry = (direction == Direction::Undo ? each.undoes : each.redoes) == number;
+        return isTry && (each.state == JournalState::Begun || each.state == JournalState::Unconfirmed);
+    });
     if (isRegister(main, Known::Id) || isRegister(main, Known::BaudRate))
         return planMove(std::move(step), entry, table.get(), options);
 
@@ -334,6 +343,11 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     for (const RegisterChange &change : entry.changes) {
         if (change.before.empty())
             continue;
+        if (change.after.empty() && !putsBackUnknown(entries, entry, change, direction)) {
+            std::erase_if(step.entry.changes,
+                          [&](const RegisterChange &each) { return each.address == change.address; });
+            continue;
+        }
         plan.registers.push_back(revertRegister(change, direction, table.get()));
         if (hidesTorqueOn(plan.registers.back(), table.get()))
             return failure(ErrorKind::InvalidArgument, tr("Entry %1 would switch torque on").arg(number));
@@ -350,7 +364,7 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
         plan.kept.clear();
         plan.registers.resize(1);
     }
-    plan.changedSince = direction == Direction::Undo ? changedSince(entries, entry) : 0;
+    plan.changedSince = direction == Direction::Undo ? changedSince(entries, entry, main) : 0;
     plan.goals = table ? spansOf(*table, step.place.id, isGoal) : std::vector<Span>();
     plan.mayMove = options.mayMove;
     plan.mayTurnTorqueOff = options.mayTurnTorqueOff;

@@ -47,6 +47,7 @@ struct UndoStep {
     RevertPlan registers;              ///< where it does not move
     std::optional<ChangeIdPlan> newId; ///< else one of these
     std::optional<ChangeBaudPlan> newBaud;
+    bool mayBeDone = false; ///< an earlier try sent that, and nobody knows whether it arrived: it may stand there already
 };
 Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Direction direction, const Catalog &catalog,
                           const UndoOptions &options);

@@ -13,6 +13,21 @@ QString tr(const char *text)
     return QCoreApplication::translate("Journal", text);
 }
 
+bool isOurs(const Found &found, const UndoStep &step)
+{
+    return found.modelNumber == step.place.modelNumber && found.firmware == step.entry.device.firmware;
+}
+
+/// Where an earlier try may have brought it.
+std::optional<Found> movedBefore(JobContext &context, const UndoStep &step)
+{
+    DevicePlace to = step.place;
+    to.id = step.newId ? step.newId->newId : to.id;
+    to.baudRate = step.newBaud ? step.newBaud->newBaudRate : to.baudRate;
+    const auto found = look(context, to);
+    return found && isOurs(*found, step) ? std::optional(*found) : std::nullopt;
+}
+
 } // namespace
 
 Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
@@ -26,9 +41,13 @@ Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
         return result;
     }
     const auto there = look(context, step.place);
+    if (!there && there.error().kind == ErrorKind::NothingReceived && step.mayBeDone)
+        result.moved = movedBefore(context, step);
+    if (result.moved)
+        return result;
     if (!there)
         return tl::unexpected(there.error());
-    if (there->modelNumber != step.place.modelNumber || there->firmware != step.entry.device.firmware) {
+    if (!isOurs(*there, step)) {
         return failure(ErrorKind::NotFound, tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
                                                 .arg(step.place.id)
                                                 .arg(step.place.baudRate)

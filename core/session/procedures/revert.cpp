@@ -153,7 +153,7 @@ private:
                                    .arg(each.name, m_plan.place.name, valueText(now))
                                    .arg(m_plan.changedSince));
             }
-            if (now == each.from || now == each.to || (!isMain && each.isGoal)
+            if (now == each.from || each.from.empty() || now == each.to || (!isMain && each.isGoal)
                 || m_plan.unchecked.contains(each.address))
                 continue;
             return refused(tr("%1 of %2 has changed meanwhile: it is %3, not %4")

@@ -10,7 +10,7 @@ namespace dynascope {
 /// A stretch of registers that goes from one value to another.
 struct RevertRegister {
     std::uint16_t address = 0;
-    Bytes from, to;                               ///< what the device must hold, what it shall hold; of one length
+    Bytes from, to;                               ///< what the device must hold (empty: anything), what it shall hold
     QString name;                                 ///< for messages
     bool isGoal = false;                          ///< the motor would follow it; or nobody knows where it leads
     bool isLocked = false;                        ///< in the EEPROM area, which torque locks

@@ -127,11 +127,12 @@ private:
     }
 
     /// One write, verified, with all that goes with it.
-    Result<void> put(const SettingsWrite &write, const std::vector<Span> &affected)
+    Result<void> put(SettingsWrite write, const std::vector<Span> &affected)
     {
         if (const auto go = m_context.checkpoint(); !go)
             return go;
         const std::vector<PollValue> before = valuesNow(write, affected);
+        write.around = before;
         if (m_hooks.begun)
             m_hooks.begun(write);
         m_isSent = true;

@@ -20,6 +20,7 @@ struct SettingsWrite {
     QString name;
     Bytes before; ///< empty: not known
     Bytes to;
+    std::vector<PollValue> around = {}; ///< what itself and what it may change hold before it, as far as that was read
 };
 
 /// Told of each write, on the bus thread: before its packet, and what was read before and after, itself first.

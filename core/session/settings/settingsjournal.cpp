@@ -11,6 +11,11 @@ SettingsHooks noted(Journal *journal, const JournalEntry &as, ControlTablePtr ta
         JournalEntry entry = as;
         entry.changes = {{write.name, write.where.address, write.where.isSigned, write.before, write.to, {}}};
         const Field *field = table ? table->at(write.where.address) : nullptr;
+        if (field && field->size == write.where.size) {
+            addResets(entry, *table, *field, [&write](const Field &other) {
+                return bytesIn(write.around, other.address, other.size);
+            });
+        }
         *note = JournalNote(journal, std::move(entry),
                             field ? affectedBy(*table, *field, true) : std::vector<const Field *>());
         if (begun)
