@@ -185,6 +185,36 @@ private slots:
         QVERIFY(world.files().isEmpty()); // nothing is left to be put back
     }
 
+    /// The first reading after a restart, before anything else tells of it.
+    void theMarkDecides()
+    {
+        const ControlTablePtr table = m_catalog.find(1020, 45);
+        const Device device(1, nullptr, table, {1, Rate, 1020, 45, false, {}});
+        const auto fresh = [&](int index) { return table->fields()[std::size_t(index)].initial; };
+        const auto packing = packIndirect(*table, {table->indexOf(u"Goal PWM")}, fresh, UsedEntries::Refuse,
+                                          PackingMark::Last);
+        QVERIFY(packing && packing->length == 3 && packing->mark > 0);
+        PackedReads reads;
+        reads.set(device, *packing, std::chrono::seconds(1));
+        const auto readingOf = [&](int mark, int second) {
+            Batch batch;
+            PollValue value;
+            value.device = 1;
+            value.address = packing->address;
+            value.length = packing->length;
+            value.data = {0x75, 0x03, std::uint8_t(mark)};
+            value.at = std::chrono::seconds(second);
+            batch.values.push_back(value);
+            const bool isLost = !reads.unpack(batch).empty();
+            return std::pair(isLost, std::vector<PollValue>(batch.values.begin() + 1, batch.values.end()));
+        };
+        QVERIFY(readingOf(packing->mark, 0).second.empty()); // before it was looked at
+        const auto [isLost, parts] = readingOf(packing->mark, 2);
+        QVERIFY(!isLost && parts.size() == 1 && parts.front().data == Bytes({0x75, 0x03}));
+        const auto [isNowLost, none] = readingOf(0, 2);
+        QVERIFY(isNowLost && none.size() == 1 && none.front().data.empty());
+    }
+
     /// Somebody writes to an entry while it is in use: what he set stays, the others are put back.
     void setByAHand()
     {
