@@ -19,7 +19,9 @@
 #include "ui/devices/leftmoves.h"
 #include "ui/devices/nicknames.h"
 #include "ui/health/healthpanel.h"
+#include "ui/health/indirectnotice.h"
 #include "ui/health/rateremedies.h"
+#include "ui/health/wantedrates.h"
 #include "ui/journal/undoactions.h"
 #include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
@@ -104,6 +106,9 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
             m_table->showSetHere();
         });
     }
+    if (m_workbench.indirect)
+        new IndirectNotice(*m_workbench.indirect, *m_messages, this);
+    new WantedRates(workbench.session, workbench.monitor, this);
     auto *rates = new RateRemedies(workbench, this);
     connect(m_status, &StatusView::ratesRequested, rates, &RateRemedies::show);
     connect(rates, &RateRemedies::posted, m_messages, [this](MessageKind kind, const QString &text) { m_messages->post(kind, text); });

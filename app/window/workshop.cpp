@@ -54,6 +54,7 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_settings(m_session, m_commands)
     , m_monitor(m_session)
     , m_ramGuard(m_session, m_monitor, m_commands, m_journal)
+    , m_indirect(m_session, m_monitor, m_settings, isPicture(options) ? QString() : IndirectFile::usualFolder())
     , m_stop(m_session, m_commands)
 {
     if (options.historyBudget > 0)
@@ -62,7 +63,7 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
         Workbench{m_session, m_commands, m_monitor, m_scanner, m_stop, m_lines, &m_journal, &m_undo, &m_settings,
-                  &m_ramGuard});
+                  &m_ramGuard, &m_indirect});
     m_window->setScheme(storedScheme());
     m_window->setRefusedTables(m_tables.refused);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),

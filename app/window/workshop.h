@@ -3,6 +3,7 @@
 
 #include "app/window/lines.h"
 #include "app/window/options.h"
+#include "core/session/indirectreads.h"
 #include "core/session/journal/undo.h"
 #include "core/session/ramguard.h"
 #include "core/session/scanner.h"
@@ -46,6 +47,7 @@ private:
     SettingsCommands m_settings;
     Monitor m_monitor;
     RamGuard m_ramGuard;
+    IndirectReads m_indirect;
     Scanner m_scanner;
     StopControl m_stop;
     std::unique_ptr<MainWindow> m_window;

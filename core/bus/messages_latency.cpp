@@ -15,8 +15,10 @@ struct Messages {
 
 Error noLatencyTimer(const QString &line)
 {
-    return {ErrorKind::PortUnsuitable, Messages::tr("%1 has no latency timer that could be set: what is waited for is the "
-                                                    "adapter's own pace, or this computer's").arg(line)};
+    return {ErrorKind::PortUnsuitable,
+            Messages::tr("%1 has no latency timer that could be set: what is waited for is the "
+                         "adapter's own pace, or this computer's")
+                .arg(line)};
 }
 
 Error latencyRefused(const QString &line, const QString &path, std::chrono::nanoseconds timer)

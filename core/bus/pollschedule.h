@@ -5,8 +5,8 @@
 
 namespace dynascope {
 
-/// When each span of a plan is due. What is not read in every cycle comes by turns (turnsOf): one a cycle, and more only
-/// where they would come far too late. Allocates nothing but in setPlan() and setTurns().
+/// When each span of a plan is due. What is not read in every cycle comes by turns (turnsOf): one a cycle, and more
+/// only where they would come far too late. Allocates nothing but in setPlan() and setTurns().
 class PollSchedule
 {
 public:

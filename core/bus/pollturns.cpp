@@ -30,7 +30,8 @@ void addTurns(std::vector<PollTurn> &turns, std::chrono::milliseconds interval, 
               LineTime cost, LineTime longest)
 {
     const std::size_t devices = exchange.request.replies.size();
-    const auto wanted = static_cast<std::size_t>(longest.count() > 0 ? (cost.count() + longest.count() - 1) / longest.count() : 1);
+    const auto wanted =
+        static_cast<std::size_t>(longest.count() > 0 ? (cost.count() + longest.count() - 1) / longest.count() : 1);
     const std::size_t parts = std::clamp<std::size_t>(wanted, 1, devices);
     std::vector<PollTurn> split(parts, PollTurn{interval, {}});
     for (std::size_t i = 0; i < exchange.indices.size(); ++i)

@@ -28,8 +28,8 @@ struct ChosenRead {
 constexpr int LongestJoined = 200; ///< bytes of one device in one reply
 
 /// The cheapest reads for these spans: each device once in each, in the order in which the devices stand in `spans`, no
-/// packet longer than a buffer takes. Devices that answer no group read are asked alone; those not in `traits` are taken
-/// for factory-fresh. Not every way is looked at, but no small one is missed (tst_readchoice). Pure.
+/// packet longer than a buffer takes. Devices that answer no group read are asked alone; those not in `traits` are
+/// taken for factory-fresh. Not every way is looked at, but no small one is missed (tst_readchoice). Pure.
 std::vector<ChosenRead> chooseReads(std::span<const Span> spans, std::span<const Traits> traits,
                                     const ReadCosts &costs);
 

@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::size_t Few = 7;      ///< pieces: every way is tried
 constexpr std::size_t AllWays = 4;  ///< so many kinds of spans: each set of them is tried for Sync
-constexpr std::size_t Polished = 24; ///< groups to merge, pieces to move: with more it takes too long for what it brings
+/// Groups to merge, pieces to move: with more it takes too long for what it brings.
+constexpr std::size_t Polished = 24;
 
 } // namespace
 

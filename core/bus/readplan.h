@@ -13,8 +13,8 @@ struct PlannedExchange {
     std::vector<std::uint16_t> begins; ///< of each reply: its first address
 };
 
-/// The cheapest requests for these spans as they are. Devices stand in each request in the order of `spans`. Devices not
-/// in `traits` are taken for factory-fresh. Pure.
+/// The cheapest requests for these spans as they are. Devices stand in each request in the order of `spans`. Devices
+/// not in `traits` are taken for factory-fresh. Pure.
 std::vector<PlannedExchange> planReads(std::span<const Span> spans, std::span<const Traits> traits);
 
 /// The requests of one poll cycle, at what they cost on this line: spans of a device may be read in one, with what lies

@@ -50,7 +50,8 @@ QString problemOf(const Field &field)
 class SlotSearch
 {
 public:
-    SlotSearch(const ControlTable &table, const std::function<std::optional<std::int64_t>(int)> &known, UsedEntries used)
+    SlotSearch(const ControlTable &table, const std::function<std::optional<std::int64_t>(int)> &known,
+               UsedEntries used)
         : m_table(table), m_known(known), m_used(used)
     {
     }
@@ -97,11 +98,18 @@ int IndirectPacking::addressOf(int field) const
     return place == places.end() ? -1 : address + place->offset;
 }
 
+bool IndirectPacking::isThrough(ByteView data) const
+{
+    return data.size() == length && (mark < 0 || data.back() == mark);
+}
+
 Result<IndirectPacking> packIndirect(const ControlTable &table, const std::vector<int> &fields,
-                                     const std::function<std::optional<std::int64_t>(int field)> &known, UsedEntries used)
+                                     const std::function<std::optional<std::int64_t>(int field)> &known,
+                                     UsedEntries used, PackingMark mark)
 {
     if (slotsOf(table).empty())
-        return failure(ErrorKind::NotSupported, IndirectTexts::tr("%1 has no Indirect Addresses that can be set").arg(table.model()));
+        return failure(ErrorKind::NotSupported,
+                       IndirectTexts::tr("%1 has no Indirect Addresses that can be set").arg(table.model()));
     std::vector<int> sorted = fields;
     std::ranges::sort(sorted);
     if (sorted.empty() || std::ranges::adjacent_find(sorted) != sorted.end())
@@ -119,14 +127,22 @@ Result<IndirectPacking> packIndirect(const ControlTable &table, const std::vecto
             bytes.push_back(field.address + byte);
     }
     QString why;
-    const std::vector<Slot> found = SlotSearch(table, known, used).find(bytes.size(), why);
+    const int spared = static_cast<int>(bytes.back() - bytes.front() + 1) - static_cast<int>(bytes.size());
+    const std::size_t marks = mark == PackingMark::Last ? 1 : 0;
+    const std::vector<Slot> found = SlotSearch(table, known, used).find(bytes.size() + marks, why);
     if (found.empty())
         return failure(ErrorKind::NotFound, why);
+    if (marks > 0) {
+        const int at = table.fields()[static_cast<std::size_t>(found.back().pointer)].address;
+        const bool isLow = (at & 0xFF) != 0;
+        bytes.push_back(isLow ? at : at + 1);
+        packing.mark = static_cast<int>(isLow ? bytes.back() & 0xFF : bytes.back() >> 8);
+    }
     for (std::size_t i = 0; i < bytes.size(); ++i)
         packing.entries.push_back({found[i].pointer, known(found[i].pointer).value_or(0), bytes[i]});
     packing.address = table.fields()[static_cast<std::size_t>(found.front().data)].address;
     packing.length = static_cast<std::uint16_t>(bytes.size());
-    packing.bytesSpared = static_cast<int>(bytes.back() - bytes.front() + 1) - static_cast<int>(bytes.size());
+    packing.bytesSpared = spared;
     return packing;
 }
 

@@ -9,8 +9,8 @@
 
 namespace dynascope {
 
-/// Scattered registers of one device as one stretch of Indirect Data: which Indirect Addresses are to be set for it, and
-/// where each register then stands. A value; manual, "Indirect Address".
+/// Scattered registers of one device as one stretch of Indirect Data: which Indirect Addresses are to be set for it,
+/// and where each register then stands. A value; manual, "Indirect Address".
 struct IndirectPacking {
     struct Entry {
         int field = -1;           ///< the Indirect Address, index in the table
@@ -24,20 +24,26 @@ struct IndirectPacking {
     std::vector<Entry> entries; ///< one a byte
     std::vector<Place> places;
     std::uint16_t address = 0, length = 0; ///< of the Indirect Data to read
+    /// The last byte shows a byte of the address register that it is read by, never 0: after a restart, when every
+    /// entry points at its own data again, it doesn't. −1: there is none.
+    int mark = -1;
     int bytesSpared = 0;                   ///< of those that reading from the first register to the last would take
 
     /// Where `field` is now to be read; −1: it isn't packed.
     int addressOf(int field) const;
+    /// Do these bytes, as read, come by way of the entries?
+    bool isThrough(ByteView data) const;
 };
 
 enum class UsedEntries { Refuse, Take };
+enum class PackingMark { None, Last };
 
 /// Entries that hold something other than their initial value are somebody else's, and are taken only where a person
-/// said so. `known` gives what an Indirect Address holds. Fails with NotSupported where the model has none, InvalidArgument
-/// where a register can't be pointed at (EEPROM, Indirect Data itself) or is named twice, NotFound where what an entry holds isn't
-/// known or too few are free in a row. Pure.
+/// said so. `known` gives what an Indirect Address holds. Fails with NotSupported where the model has none,
+/// InvalidArgument where a register can't be pointed at (EEPROM, Indirect Data itself) or is named twice, NotFound
+/// where what an entry holds isn't known or too few are free in a row. Pure.
 Result<IndirectPacking> packIndirect(const ControlTable &table, const std::vector<int> &fields,
                                      const std::function<std::optional<std::int64_t>(int field)> &known,
-                                     UsedEntries used = UsedEntries::Refuse);
+                                     UsedEntries used = UsedEntries::Refuse, PackingMark mark = PackingMark::None);
 
 } // namespace dynascope

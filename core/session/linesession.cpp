@@ -4,6 +4,9 @@
 #include "core/bus/cyclelimit.h"
 #include "core/table/catalog.h"
 
+#include <QPromise>
+#include <QThreadPool>
+
 #include <algorithm>
 #include <chrono>
 
@@ -36,6 +39,7 @@ LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate
     m_frameTimer.setSingleShot(true);
     m_frameTimer.setInterval(FrameInterval);
     connect(&m_frameTimer, &QTimer::timeout, this, &LineSession::takeBatches);
+    connect(&m_foreseeing, &QFutureWatcherBase::finished, this, &LineSession::takePrediction);
     startThread(name, baudRate);
 }
 
@@ -58,6 +62,7 @@ void LineSession::startThread(const QString &name, int baudRate)
     m_thread.reset();
     ++m_generation;
     m_plan = {};
+    m_packed.clear(); // nobody knows what came to pass meanwhile
     m_thread = std::make_unique<BusThread>(m_factory, name, baudRate);
     m_sinceMeasured.start();
     m_busyAtMeasure = {};
@@ -177,6 +182,7 @@ void LineSession::forget(DeviceKey key)
     if (at == m_devices.end())
         return;
     emit deviceAboutToBeRemoved(at->get());
+    m_packed.end(key);
     m_keys.release(name(), **at);
     m_failures.erase(key);
     m_devices.erase(at);
@@ -208,8 +214,44 @@ void LineSession::takeBatches()
             return !device || (batch.baudRate != AnyRate && batch.baudRate != device->baudRate());
         });
         take(batch);
+        unpack(batch);
         emit batchTaken(batch);
     }
+}
+
+/// Behind what was read: the registers that were seen through it.
+void LineSession::unpack(Batch &batch)
+{
+    const std::size_t read = batch.values.size();
+    const std::vector<DeviceKey> lost = m_packed.unpack(batch);
+    for (std::size_t i = read; i < batch.values.size(); ++i) {
+        const PollValue &value = batch.values[i];
+        Device *device = value.data.empty() ? nullptr : this->device(value.device);
+        if (device)
+            device->take(value, isPresent(*device) ? FieldState::Fresh : FieldState::Stale);
+    }
+    for (const DeviceKey key : lost) {
+        Device *device = this->device(key);
+        endPacking(*device);
+        emit packingLost(device);
+    }
+}
+
+void LineSession::setPacking(Device &device, IndirectPacking packing, LineTime since)
+{
+    m_packed.set(device, std::move(packing), since);
+    emit deviceChanged(&device); // it is polled otherwise
+}
+
+void LineSession::endPacking(Device &device)
+{
+    if (m_packed.end(device.key()))
+        emit deviceChanged(&device);
+}
+
+bool LineSession::isPresent(const Device &device) const
+{
+    return state() == BusThread::State::Open && device.state() == Device::State::Present;
 }
 
 void LineSession::take(const Batch &batch)
@@ -225,8 +267,7 @@ void LineSession::take(const Batch &batch)
         device->setAlert(value.alert);
         if (state() == BusThread::State::Open)
             answered(*device);
-        const bool isThere = state() == BusThread::State::Open && device->state() == Device::State::Present;
-        device->take(value, isThere ? FieldState::Fresh : FieldState::Stale);
+        device->take(value, isPresent(*device) ? FieldState::Fresh : FieldState::Stale);
     }
 }
 
@@ -267,22 +308,47 @@ PolledLine LineSession::polled() const
     return line;
 }
 
-/// Planning takes its time: only where something is other than it was.
+/// Planning takes its time, 50 ms for thirty servos: only where something is other than it was, and elsewhere.
 void LineSession::predict()
 {
+    if (m_foreseeing.isRunning() || state() != BusThread::State::Open)
+        return; // the next second looks again
     PolledLine line = polled();
-    if (line.isLike(m_predicted) && m_prediction.shares.sum() > 0)
+    const bool isKnown = line.isLike(m_predicted) && m_prediction.shares.sum() > 0;
+    if (isKnown && (!m_limitsWanted || !m_limits.empty()))
         return;
-    m_predicted = std::move(line);
-    m_limits.clear();
-    m_prediction = predictPoll(m_predicted.plan, m_predicted.baudRate, m_predicted.delays, m_predicted.silent);
-    m_possibleRate = possibleCycleRate(m_plan, baudRate());
+    m_predicted = line;
+    const auto promise = std::make_shared<QPromise<Foreseen>>();
+    promise->start();
+    m_foreseeing.setFuture(promise->future());
+    QThreadPool::globalInstance()->start([promise, line = std::move(line), withLimits = m_limitsWanted] {
+        Foreseen seen;
+        seen.prediction = predictPoll(line.plan, line.baudRate, line.delays, line.silent);
+        seen.possibleRate = possibleCycleRate(line.plan, line.baudRate);
+        if (withLimits)
+            seen.limits = limitsOf(line);
+        promise->addResult(std::move(seen));
+        promise->finish();
+    });
+}
+
+void LineSession::takePrediction()
+{
+    if (state() != BusThread::State::Open)
+        return;
+    Foreseen seen = m_foreseeing.result();
+    m_prediction = seen.prediction;
+    m_possibleRate = seen.possibleRate;
+    m_limits = std::move(seen.limits);
+    m_limitsWanted = false; // whoever still looks asks again
+    emit rateChanged();
 }
 
 const std::vector<RateLimit> &LineSession::limits()
 {
+    m_limitsWanted = true;
     if (m_limits.empty())
-        m_limits = limitsOf(polled());
+        predict();
     return m_limits;
 }
 

@@ -5,8 +5,10 @@
 #include "core/bus/ratelimit.h"
 #include "core/session/devicekeys.h"
 #include "core/session/linehealth.h"
+#include "core/session/packedreads.h"
 
 #include <QElapsedTimer>
+#include <QFutureWatcher>
 #include <QTimer>
 
 #include <map>
@@ -61,13 +63,22 @@ public:
     /// What polling is taken to be like, with what adapter and host were seen to add.
     const PollPrediction &prediction() const { return m_prediction; }
     const PollPlan &pollPlan() const { return m_plan; }
-    const std::vector<RateLimit> &limits(); ///< see limitsOf()
+    /// See limitsOf(). Empty until they are looked for, which asking begins; rateChanged() tells.
+    const std::vector<RateLimit> &limits();
+    PolledLine polled() const;              ///< what is asked of predictPoll()
     /// Asks adapter and driver to hand over what comes at once (Line::lowerLatency).
     void lowerLatency(QObject *context, std::function<void(const Result<void> &)> done);
     double busLoad() const { return m_busLoad; } ///< 0..1: part of the last second in which the wire carried bytes
     LineHealth &health() { return m_health; }
 
+    /// From now on what comes of its stretch, read at `since` or later, counts for the packed registers. What doesn't
+    /// come by way of the entries ends it. See IndirectReads, which alone calls this.
+    void setPacking(Device &device, IndirectPacking packing, LineTime since);
+    void endPacking(Device &device);
+    const IndirectPacking *packing(DeviceKey device) const { return m_packed.packing(device); }
+
 signals:
+    void packingLost(dynascope::Device *device); ///< what was read came by no entry of it
     void deviceAdded(dynascope::Device *device);
     void deviceAboutToBeRemoved(dynascope::Device *device);
     void deviceChanged(dynascope::Device *device);
@@ -81,10 +92,12 @@ private:
     void onThreadState();
     void takeBatches();
     void take(const Batch &batch);
+    void unpack(Batch &batch);
+    bool isPresent(const Device &device) const;
     void countFailure(Device &device, const PollValue &value);
     void measureRates();
-    PolledLine polled() const;
     void predict();
+    void takePrediction();
     void park(Device &device);
     void countAnew(const Device &device);
 
@@ -96,6 +109,7 @@ private:
     std::map<DeviceKey, int> m_failures; ///< poll answers missing in a row
     int m_generation = 0;
     LineHealth m_health;
+    PackedReads m_packed;
     QTimer m_rateTimer;
     QTimer m_frameTimer;
     QElapsedTimer m_sinceMeasured;
@@ -104,7 +118,14 @@ private:
     PollPlan m_plan;
     double m_cycleRate = 0;
     double m_possibleRate = 0;
-    PolledLine m_predicted; ///< what m_prediction is of
+    struct Foreseen {
+        PollPrediction prediction;
+        double possibleRate = 0;
+        std::vector<RateLimit> limits;
+    };
+    PolledLine m_predicted; ///< what m_prediction is of, or will be
+    QFutureWatcher<Foreseen> m_foreseeing;
+    bool m_limitsWanted = false;
     PollPrediction m_prediction;
     std::vector<RateLimit> m_limits; ///< empty: not looked for yet
     double m_busLoad = 0;

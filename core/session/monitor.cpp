@@ -142,33 +142,48 @@ void Monitor::replanSoon()
         m_replanTimer.start();
 }
 
+PollPlan Monitor::planOf(const LineSession &line, const PackingOf &packing) const
+{
+    std::vector<DeviceWatches> devices;
+    for (const auto &device : line.devices()) {
+        if (m_paused)
+            break;
+        const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
+        DeviceWatches watches{device.get(), {}, isSelected, {}, {}, {}, packing(*device)};
+        for (auto at = m_unfolded.lower_bound({device->key(), 0});
+             isSelected && at != m_unfolded.end() && at->device == device->key(); ++at)
+            watches.unfolded.insert(at->field);
+        if (const auto signs = m_signs.find(device->key()); signs != m_signs.end())
+            watches.signs = signs->second;
+        for (auto at = m_watches.lower_bound({device->key(), 0});
+             at != m_watches.end() && at->device == device->key(); ++at) {
+            watches.fields.push_back(at->field);
+            if (const double hertz = rate(*at); hertz > 0)
+                watches.rates[at->field] = hertz;
+        }
+        devices.push_back(std::move(watches));
+    }
+    PollPlan plan = planWatches(devices, line.baudRate());
+    for (Traits &device : plan.traits)
+        device.fastReads = device.fastReads && m_mayReadFast;
+    return plan;
+}
+
+void Monitor::markGaps(const LineSession &line)
+{
+    for (const Watch &watch : m_watches) {
+        const Device *device = line.device(watch.device);
+        if (device && (line.state() != BusThread::State::Open || device->state() != Device::State::Present))
+            m_histories.markGap(watch);
+    }
+}
+
 void Monitor::replan()
 {
     for (const auto &line : m_session.lines()) {
-        std::vector<DeviceWatches> devices;
-        for (const auto &device : line->devices()) {
-            if (m_paused)
-                break;
-            const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
-            DeviceWatches watches{device.get(), {}, isSelected, {}, {}, {}};
-            for (auto at = m_unfolded.lower_bound({device->key(), 0});
-                 isSelected && at != m_unfolded.end() && at->device == device->key(); ++at)
-                watches.unfolded.insert(at->field);
-            if (const auto signs = m_signs.find(device->key()); signs != m_signs.end())
-                watches.signs = signs->second;
-            for (auto at = m_watches.lower_bound({device->key(), 0});
-                 at != m_watches.end() && at->device == device->key(); ++at) {
-                watches.fields.push_back(at->field);
-                if (const double hertz = rate(*at); hertz > 0)
-                    watches.rates[at->field] = hertz;
-                if (line->state() != BusThread::State::Open || device->state() != Device::State::Present)
-                    m_histories.markGap(*at);
-            }
-            devices.push_back(std::move(watches));
-        }
-        PollPlan plan = planWatches(devices, line->baudRate());
-        for (Traits &device : plan.traits)
-            device.fastReads = device.fastReads && m_mayReadFast;
+        if (!m_paused)
+            markGaps(*line);
+        PollPlan plan = planOf(*line, [&line](const Device &device) { return line->packing(device.key()); });
         SentPlan &sent = m_sentPlans[line.get()];
         if (sent.generation != line->generation())
             sent = {line->generation(), {}};

@@ -44,6 +44,10 @@ public:
     bool mayReadFast() const { return m_mayReadFast; }
     void setMayReadFast(bool may); ///< fast reads of those who know them; so at first
 
+    /// What is read of this line, each device by this packing (nullptr: by none). Without gaps in histories.
+    using PackingOf = std::function<const IndirectPacking *(const Device &)>;
+    PollPlan planOf(const LineSession &line, const PackingOf &packing) const;
+
     bool isPaused() const { return m_paused; }
     void setPaused(bool paused); ///< no polling at all
 
@@ -55,6 +59,7 @@ private:
     void drop(Device *device);
     void replanSoon();
     void replan();
+    void markGaps(const LineSession &line);
     void record(const Batch &batch);
 
     Session &m_session;

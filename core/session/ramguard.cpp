@@ -111,7 +111,7 @@ void RamGuard::onEnded(qint64 number)
 {
     const JournalEntry *entry = m_journal.entry(number);
     Device *device = entry ? deviceOf(m_session, entry->device) : nullptr;
-    if (!device)
+    if (!device || entry->by == JournalAuthor::Packing) // nobody's setting: IndirectReads looks after them
         return;
     const DeviceKey key = device->key();
     const bool isRestart = entry->kind == JournalKind::Reboot || entry->kind == JournalKind::FactoryReset;

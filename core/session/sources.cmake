@@ -23,7 +23,9 @@ target_sources(dynascope_core PRIVATE
     session/groupwrite.cpp session/groupwrite.h
     session/histories.cpp session/histories.h
     session/history.cpp session/history.h
+    session/indirectfile.cpp session/indirectfile.h
     session/indirectpacking.cpp session/indirectpacking.h
+    session/indirectreads.cpp session/indirectreads.h
     session/history/bits.h
     session/history/extremes.cpp session/history/extremes.h
     session/history/foldedhistory.cpp session/history/foldedhistory.h
@@ -48,6 +50,7 @@ target_sources(dynascope_core PRIVATE
     session/moverun.cpp session/moverun.h
     session/moves.cpp session/moves.h
     session/neighbours.cpp session/neighbours.h
+    session/packedreads.cpp session/packedreads.h
     session/placecommands.cpp
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp

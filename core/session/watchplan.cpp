@@ -61,9 +61,18 @@ void addWatched(PollPlan &plan, const DeviceWatches &watches)
 {
     const Device &device = *watches.device;
     std::map<std::chrono::milliseconds, std::set<int>> byInterval;
+    bool isPacked = false;
     for (const int field : watches.fields) {
         const auto rate = watches.rates.find(field);
-        byInterval[rate == watches.rates.end() ? 0ms : intervalOf(rate->second)].insert(field);
+        const auto interval = rate == watches.rates.end() ? 0ms : intervalOf(rate->second);
+        if (interval == 0ms && watches.packing && watches.packing->addressOf(field) >= 0)
+            isPacked = true;
+        else
+            byInterval[interval].insert(field);
+    }
+    if (isPacked) {
+        const IndirectPacking &packing = *watches.packing;
+        plan.spans.push_back({device.key(), {device.id(), packing.address, packing.length}, 0ms});
     }
     for (const auto &[interval, fields] : byInterval) {
         const std::size_t begin = plan.spans.size();
@@ -71,7 +80,8 @@ void addWatched(PollPlan &plan, const DeviceWatches &watches)
             const Field &field = device.table().fields()[static_cast<std::size_t>(index)];
             Span *last = plan.spans.size() > begin ? &plan.spans.back().span : nullptr;
             if (last && field.address <= last->address + last->length)
-                last->length = static_cast<std::uint16_t>(std::max(last->address + last->length, field.end()) - last->address);
+                last->length =
+                    static_cast<std::uint16_t>(std::max(last->address + last->length, field.end()) - last->address);
             else
                 plan.spans.push_back({device.key(), {device.id(), field.address, field.size}, interval});
         }
@@ -111,6 +121,13 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
             const bool isRead = watches.isSelected && isLive(field);
             return !isRead && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field));
         });
+        if (watches.packing) { // another program may set them anew
+            addSpans(plan, device, StateInterval, [&](const Field &field) {
+                const int index = static_cast<int>(&field - first);
+                const auto isIt = [index](const IndirectPacking::Entry &entry) { return entry.field == index; };
+                return std::ranges::any_of(watches.packing->entries, isIt);
+            });
+        }
         addSpans(plan, device, SignInterval, [&](const Field &field) {
             const int index = static_cast<int>(&field - first);
             const bool isWatched = std::ranges::find(watches.fields, index) != watches.fields.end();

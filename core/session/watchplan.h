@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/session/device.h"
+#include "core/session/indirectpacking.h"
 
 #include <map>
 #include <set>
@@ -16,6 +17,7 @@ struct DeviceWatches {
     std::set<int> unfolded = {}; ///< fields of long runs (indirect.h) that are on screen, too
     std::set<int> signs = {};    ///< read at least each 10 s, whatever else is
     std::map<int, double> rates = {}; ///< of `fields`: Hz
+    const IndirectPacking *packing = nullptr; ///< what of `fields` is at full rate, and in it, is read by it
 };
 
 /// How long between two readings at this rate; 0: it is every cycle's.

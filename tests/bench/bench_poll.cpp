@@ -219,8 +219,9 @@ void cyclesOverPty(const Catalog &catalog)
         }
         Cycles &calmest = *std::ranges::min_element(blocks, {}, &Cycles::whole);
         const double achieved = Blocks * BlockCycles / (microseconds(all.whole) * 1e-6);
-        std::printf("  %-6s  predicted %.1f Hz (%.0f us an exchange, %.0f us a cycle measured), achieved %.1f Hz: %.3f\n",
-            name, predicted.cycleRate, microseconds(poller.delays().perExchange), microseconds(poller.delays().perCycle),
+        std::printf(
+            "  %-6s  predicted %.1f Hz (%.0f us an exchange, %.0f us a cycle measured), achieved %.1f Hz: %.3f\n", name,
+            predicted.cycleRate, microseconds(poller.delays().perExchange), microseconds(poller.delays().perCycle),
             achieved, achieved / predicted.cycleRate);
         std::printf("  %-6s  limit %.0f us", name, microseconds(limitOf(kind)));
         print(all, limitOf(kind));

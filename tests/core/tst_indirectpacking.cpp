@@ -119,8 +119,10 @@ private slots:
         QTest::addColumn<bool>("read");
         QTest::addColumn<QString>("why");
         QTest::newRow("EEPROM") << QStringList{QStringLiteral("ID")} << true << QStringLiteral("ID is in EEPROM");
-        QTest::newRow("itself") << QStringList{QStringLiteral("Indirect Data 5")} << true << QStringLiteral("the indirect block itself");
-        QTest::newRow("twice") << QStringList{QStringLiteral("LED"), QStringLiteral("LED")} << true << QStringLiteral("once");
+        QTest::newRow("itself") << QStringList{QStringLiteral("Indirect Data 5")} << true
+                                << QStringLiteral("the indirect block itself");
+        QTest::newRow("twice") << QStringList{QStringLiteral("LED"), QStringLiteral("LED")} << true
+                               << QStringLiteral("once");
         QTest::newRow("nothing") << QStringList{} << true << QStringLiteral("one at least");
         QTest::newRow("unread") << QStringList{QStringLiteral("LED")} << false << QStringLiteral("has not been read");
     }
@@ -132,7 +134,8 @@ private slots:
         std::vector<int> fields;
         for (const QString &name : registers)
             fields.push_back(m_table->indexOf(name));
-        const auto packing = packIndirect(*m_table, fields, [&](int index) { return read ? fresh()(index) : std::nullopt; });
+        const auto packing =
+            packIndirect(*m_table, fields, [&](int index) { return read ? fresh()(index) : std::nullopt; });
         QVERIFY(!packing);
         QVERIFY2(packing.error().text.contains(why), qPrintable(packing.error().text));
     }

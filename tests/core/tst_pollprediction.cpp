@@ -131,7 +131,9 @@ private:
         traits.fastReads = model.fast && m_setup.fast;
         plan.traits.push_back(traits);
         const auto read = [&](int address, int length, std::chrono::milliseconds interval) {
-            plan.spans.push_back({static_cast<quint32>(id), {traits.id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)}, interval});
+            plan.spans.push_back({static_cast<quint32>(id),
+                                  {traits.id, static_cast<std::uint16_t>(address), static_cast<std::uint16_t>(length)},
+                                  interval});
         };
         read(model.first, 4, 0ms);
         if (m_setup.read != Read::Position) { // current, velocity, voltage and so on
@@ -180,7 +182,8 @@ private slots:
         row("one servo, scattered", {.read = Read::Scattered});
         row("one servo and slow ones", {.slow = true});
         row("20 x 6 fast", {.count = 20, .baudRate = 4'000'000, .read = Read::SixFields});
-        row("20 x 6 fast, return delay", {.count = 20, .baudRate = 4'000'000, .returnDelay = 250, .read = Read::SixFields});
+        row("20 x 6 fast, return delay",
+            {.count = 20, .baudRate = 4'000'000, .returnDelay = 250, .read = Read::SixFields});
         row("20 x 6 sync", {.count = 20, .baudRate = 4'000'000, .read = Read::SixFields, .fast = false});
         row("20 x 6 sync, 1 Mbps, 1 ms", {.count = 20, .latency = 1ms, .read = Read::SixFields, .fast = false});
         row("20 x 6 sync, return delay", {.count = 20, .returnDelay = 250, .read = Read::SixFields, .fast = false});
@@ -192,7 +195,8 @@ private slots:
         row("mixed, scattered", {.models = mixed, .count = 12, .read = Read::Scattered});
         row("mixed, scattered, 16 ms", {.models = mixed, .count = 12, .latency = 16ms, .read = Read::Scattered});
         row("mixed, slow ones, return delay", {.models = mixed, .count = 12, .returnDelay = 250, .slow = true});
-        row("mixed, 1 ms, return delay", {.models = mixed, .count = 12, .returnDelay = 250, .latency = 1ms, .read = Read::SixFields});
+        row("mixed, 1 ms, return delay",
+            {.models = mixed, .count = 12, .returnDelay = 250, .latency = 1ms, .read = Read::SixFields});
         row("a silent one", {.count = 12, .read = Read::SixFields, .silent = 5});
         row("a silent one, sync", {.count = 12, .read = Read::SixFields, .fast = false, .silent = 1});
         row("a silent one, 16 ms", {.count = 6, .latency = 16ms, .read = Read::SixFields, .silent = 6});
@@ -207,8 +211,10 @@ private slots:
         const World::Achieved achieved = world.run(setup.silent > 0 ? 6s : 2s);
         const double rate = achieved.rate / predicted.cycleRate;
         const double load = achieved.load / predicted.busLoad;
-        qInfo("achieved %.1f Hz, predicted %.1f Hz: %.3f; load %.3f, predicted %.3f; cycles %.2f to %.2f ms", achieved.rate, predicted.cycleRate, rate,
-              achieved.load, predicted.busLoad, static_cast<double>(achieved.shortest.count()) * 1e-6, static_cast<double>(achieved.longest.count()) * 1e-6);
+        qInfo("achieved %.1f Hz, predicted %.1f Hz: %.3f; load %.3f, predicted %.3f; cycles %.2f to %.2f ms",
+              achieved.rate, predicted.cycleRate, rate, achieved.load, predicted.busLoad,
+              static_cast<double>(achieved.shortest.count()) * 1e-6,
+              static_cast<double>(achieved.longest.count()) * 1e-6);
         QVERIFY2(rate >= 0.95 && rate <= 1.05, qPrintable(QString::number(rate)));
         QVERIFY2(load >= 0.95 && load <= 1.05, qPrintable(QString::number(load)));
         QVERIFY(std::abs(predicted.shares.sum() - 1) < 0.001);
@@ -244,11 +250,13 @@ private slots:
             if (span.interval.count() == 0)
                 continue;
             constexpr double Fastest = 10; // Hz; of that less may come where the line is too slow, as is predicted
-            const double often = std::min(1000.0 / static_cast<double>(span.interval.count()), Fastest * world.predicted().met);
+            const double often =
+                std::min(1000.0 / static_cast<double>(span.interval.count()), Fastest * world.predicted().met);
             const int wanted = qRound(5 * often);
             const auto at = more.values.find({span.device, span.span.address});
             const int came = at == more.values.end() ? 0 : at->second;
-            QVERIFY2(std::abs(came - wanted) <= 1 + wanted / 20, qPrintable(QStringLiteral("%1, not %2").arg(came).arg(wanted)));
+            QVERIFY2(std::abs(came - wanted) <= 1 + wanted / 20,
+                     qPrintable(QStringLiteral("%1, not %2").arg(came).arg(wanted)));
         }
     }
 

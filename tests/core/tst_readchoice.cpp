@@ -53,7 +53,9 @@ LineTime costOfGroup(const Case &world, const std::vector<Span> &pieces)
         fast = fast && traits.fastReads;
         asked.push_back({pieces[i].length, traits.returnDelay});
     }
-    const auto cost = [&](ReadKind kind) { return costOf(kind, asked, world.costs.byteTime, world.costs.delays).total(); };
+    const auto cost = [&](ReadKind kind) {
+        return costOf(kind, asked, world.costs.byteTime, world.costs.delays).total();
+    };
     if (pieces.size() == 1)
         return cost(ReadKind::Single);
     LineTime least = std::min(cost(ReadKind::Bulk), sync ? cost(ReadKind::Sync) : LineTime::max());
@@ -101,7 +103,8 @@ LineTime cheapest(const Case &world)
         for (std::size_t i = 0; i < spans.size(); ++i) {
             const auto gap = i > 0 ? std::ranges::find(gaps, i - 1) : gaps.end();
             if (gap != gaps.end() && (bits >> (gap - gaps.begin()) & 1) != 0)
-                pieces.back().length = static_cast<std::uint16_t>(spans[i].address + spans[i].length - pieces.back().address);
+                pieces.back().length =
+                    static_cast<std::uint16_t>(spans[i].address + spans[i].length - pieces.back().address);
             else
                 pieces.push_back(spans[i]);
         }
@@ -184,7 +187,8 @@ private slots:
             if (world.spans.size() < 9)
                 continue;
             world.costs.delays.latencyTimer = {}; // 62 bytes exactly would be a matter of luck
-            const LineTime chosen = costOf(chooseReads(world.spans, world.traits, world.costs), world.traits, world.costs).total();
+            const LineTime chosen =
+                costOf(chooseReads(world.spans, world.traits, world.costs), world.traits, world.costs).total();
             const double by = static_cast<double>(chosen.count()) / static_cast<double>(cheapest(world).count());
             QVERIFY(by >= 1);
             worst = std::max(worst, by);
@@ -260,7 +264,8 @@ private slots:
             devices.push_back(traits);
             const int base = id % 4 == 0 ? 570 : 126;
             for (const auto &[address, length] : {std::pair(0, 2), {2, 4}, {6, 4}, {18, 2}, {20, 1}})
-                spans.push_back({traits.id, static_cast<std::uint16_t>(base + address), static_cast<std::uint16_t>(length)});
+                spans.push_back(
+                    {traits.id, static_cast<std::uint16_t>(base + address), static_cast<std::uint16_t>(length)});
         }
         ReadCosts costs{2500ns, {}, true, {}};
         QElapsedTimer timer;

@@ -88,8 +88,9 @@ private slots:
         DeviceWatches watches{&device, {position, velocity, temperature}, false};
         watches.rates = {{velocity, 50.0}, {temperature, 1.0}};
         const QStringList plan = asText(planWatches({watches}, 57600));
-        QCOMPARE(plan.mid(0, 3), QStringList({QStringLiteral("#1 132+4 every 0 ms"), QStringLiteral("#1 128+4 every 20 ms"),
-                                              QStringLiteral("#1 146+1 every 1000 ms")}));
+        QCOMPARE(plan.mid(0, 3),
+                 QStringList({QStringLiteral("#1 132+4 every 0 ms"), QStringLiteral("#1 128+4 every 20 ms"),
+                              QStringLiteral("#1 146+1 every 1000 ms")}));
         using namespace std::chrono_literals;
         QCOMPARE(intervalOf(0), 0ms);
         QCOMPARE(intervalOf(-1), 0ms);

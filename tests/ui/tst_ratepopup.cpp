@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/indirectreads.h"
 #include "core/session/monitor.h"
 #include "core/session/settingscommands.h"
 #include "tests/support/uitest.h"
@@ -6,12 +7,14 @@
 #include "ui/health/ratepopup.h"
 #include "ui/health/rateremedies.h"
 #include "ui/health/ratetexts.h"
+#include "ui/health/wantedrates.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QSettings>
 #include <QSignalSpy>
 
 using namespace dynascope;
@@ -71,7 +74,8 @@ private slots:
         QCOMPARE(hertzText(9.81), QStringLiteral("9.8 Hz"));
         QCOMPARE(intervalText(100ms), QStringLiteral("10 Hz"));
         QCOMPARE(intervalText(9000ms), QStringLiteral("each 9 s"));
-        QCOMPARE(limitName(limit(RateLimit::What::ReturnDelay, {3}), Baud), QStringLiteral("Return Delay Time of device 3"));
+        QCOMPARE(limitName(limit(RateLimit::What::ReturnDelay, {3}), Baud),
+                 QStringLiteral("Return Delay Time of device 3"));
         QCOMPARE(gainText(limit(RateLimit::What::ReturnDelay), 812), QStringLiteral("then 900 Hz"));
         QCOMPARE(remedyText({RateLimit::What::ReturnDelay, 0.4, false, 0, {}}), QString());
     }
@@ -95,6 +99,55 @@ private slots:
         QVERIFY(fast->isChecked());
         fast->click();
         QVERIFY(!m_bench->monitor.mayReadFast());
+    }
+
+    void whatIsWantedIsRemembered()
+    {
+        Device &device = *m_bench->device(1, Baud);
+        const Watch watch{device.key(), device.table().indexOf(u"Present Current")};
+        {
+            WantedRates rates(m_bench->session, m_bench->monitor, nullptr);
+            m_bench->monitor.watch(watch);
+            QCOMPARE(m_bench->monitor.rate(watch), 0.0);
+            m_bench->monitor.setRate(watch, 20);
+        }
+        m_line->forget(device.key()); // as at the next start: the monitor knows nothing of it
+        Device &again = m_line->heard({1, Baud, 1020, 45, false, {}});
+        const Watch anew{again.key(), watch.field};
+        WantedRates rates(m_bench->session, m_bench->monitor, nullptr);
+        QCOMPARE(m_bench->monitor.rate(anew), 0.0);
+        m_bench->monitor.watch(anew);
+        QCOMPARE(m_bench->monitor.rate(anew), 20.0);
+        m_bench->monitor.setRate(anew, 0);
+        m_bench->monitor.unwatch(anew);
+        m_bench->monitor.watch(anew);
+        QCOMPARE(m_bench->monitor.rate(anew), 0.0);
+        QVERIFY(QSettings().allKeys().filter(QStringLiteral("rates/")).isEmpty());
+    }
+
+    void scatteredRegistersArePackedOnWish()
+    {
+        IndirectReads reads(m_bench->session, m_bench->monitor, *m_settings, {});
+        m_bench->monitor.setPaused(false);
+        Device &device = *m_bench->device(1, Baud);
+        for (const auto name : {u"Position P Gain", u"Goal PWM", u"Present Temperature"})
+            m_bench->monitor.watch({device.key(), device.table().indexOf(name)});
+        Workbench bench = workbench();
+        bench.indirect = &reads;
+        RatePopup popup(bench, *m_line, m_window.get());
+        popup.setAttribute(Qt::WA_DeleteOnClose, false);
+        popup.open(*m_window);
+        auto *pack = popup.findChild<QCheckBox *>(QStringLiteral("packBox"));
+        QVERIFY(pack && pack->isEnabled() && !pack->isChecked());
+        auto *gain = popup.findChild<QLabel *>(QStringLiteral("packGain"));
+        QTRY_VERIFY2(gain->text().contains(QStringLiteral("with it")), qPrintable(gain->text()));
+        QTest::mouseClick(pack, Qt::LeftButton, {}, QPoint(8, pack->height() / 2));
+        QTRY_COMPARE(reads.packedDevices(*m_line), 1);
+        QVERIFY2(gain->text().contains(QStringLiteral("One device")), qPrintable(gain->text()));
+        QTest::mouseClick(pack, Qt::LeftButton, {}, QPoint(8, pack->height() / 2));
+        QTRY_VERIFY(!reads.isBusy(*m_line));
+        QCOMPARE(reads.packedDevices(*m_line), 0);
+        m_bench->monitor.setPaused(true);
     }
 
     /// Only after it was asked for, and then in the servos.

@@ -13,6 +13,7 @@ class Journal;
 class Undo;
 class SettingsCommands;
 class RamGuard;
+class IndirectReads;
 
 /// What the window's parts work on. Made by app, which owns all of it and outlives the window.
 struct Workbench {
@@ -26,6 +27,7 @@ struct Workbench {
     Undo *undo = nullptr;
     SettingsCommands *settings = nullptr; ///< without it nothing is told before a write
     RamGuard *ramGuard = nullptr; ///< only with `journal`
+    IndirectReads *indirect = nullptr; ///< without it nothing is packed
 };
 
 } // namespace dynascope

@@ -4,6 +4,7 @@
 #include "core/session/monitor.h"
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/health/packingbox.h"
 #include "ui/health/ratebar.h"
 #include "ui/health/ratetexts.h"
 
@@ -131,11 +132,14 @@ void RatePopup::addLimits(QVBoxLayout &layout)
     }
     m_fast = new QCheckBox(tr("Fast reads, of devices that know them"), this);
     m_fast->setObjectName(QStringLiteral("fastReadsBox"));
-    m_fast->setToolTip(tr("One packet with the values of all devices. Off where an adapter or a program on the line can't "
-                          "take it."));
+    m_fast->setToolTip(
+        tr("One packet with the values of all devices. Off where an adapter or a program on the line can't "
+           "take it."));
     m_fast->setChecked(m_workbench.monitor.mayReadFast());
     connect(m_fast, &QCheckBox::toggled, this, [this](bool on) { m_workbench.monitor.setMayReadFast(on); });
     layout.addWidget(m_fast);
+    if (m_workbench.indirect)
+        layout.addWidget(new PackingBox(*m_workbench.indirect, *m_line, this));
 }
 
 /// Watched fields of the line's devices, by name: how often each is wanted.
@@ -155,7 +159,8 @@ void RatePopup::addFields(QVBoxLayout &layout)
     int row = 0;
     for (const auto &[name, watches] : byName) {
         if (row == FieldRows) {
-            add(grid, row, 0, tr("and %1 more").arg(byName.size() - FieldRows), false)->setForegroundRole(QPalette::PlaceholderText);
+            add(grid, row, 0, tr("and %1 more").arg(byName.size() - FieldRows), false)
+                ->setForegroundRole(QPalette::PlaceholderText);
             break;
         }
         add(grid, row, 0, watches.size() > 1 ? tr("%1, %2 devices").arg(name).arg(watches.size()) : name, false);
@@ -164,7 +169,8 @@ void RatePopup::addFields(QVBoxLayout &layout)
         list->setObjectName(QStringLiteral("wantedRate%1").arg(row));
         const double now = m_workbench.monitor.rate(watches.front());
         for (const double hertz : Rates)
-            list->addItem(hertz > 0 ? intervalText(std::chrono::milliseconds(qRound(1000 / hertz))) : intervalText({}), hertz);
+            list->addItem(hertz > 0 ? intervalText(std::chrono::milliseconds(qRound(1000 / hertz))) : intervalText({}),
+                          hertz);
         list->setCurrentIndex(std::max(0, list->findData(now)));
         connect(list, &QComboBox::activated, this, [this, list, watches = watches] {
             for (const Watch &watch : watches)
@@ -179,7 +185,8 @@ void RatePopup::open(const QWidget &over)
     adjustSize();
     const QRect room = over.screen()->availableGeometry();
     const QPoint corner = over.mapToGlobal(QPoint(over.width() - width(), -height() - 4));
-    move(std::clamp(corner.x(), room.left(), std::max(room.left(), room.right() - width())), std::max(room.top(), corner.y()));
+    move(std::clamp(corner.x(), room.left(), std::max(room.left(), room.right() - width())),
+         std::max(room.top(), corner.y()));
     show();
 }
 
@@ -214,16 +221,18 @@ void RatePopup::refreshRates()
             break;
         if (interval.count() == 0) {
             const double rate = m_line->cycleRate();
-            show(tr("Every cycle"), tr("all"), predicted.cycleRate > 0 ? hertzText(predicted.cycleRate) : none, rate > 0 ? hertzText(rate) : none);
+            show(tr("Every cycle"), tr("all"), predicted.cycleRate > 0 ? hertzText(predicted.cycleRate) : none,
+                 rate > 0 ? hertzText(rate) : none);
             continue;
         }
         const double wanted = 1000.0 / static_cast<double>(interval.count());
         const bool isRare = wanted < 0.5; // between two reports mostly none comes
         const double achieved = m_line->health().answersPerSecond(interval) / count;
-        show(interval.count() > 1000 ? tr("Signs of a restart") : tr("At intervals"), intervalText(interval), isRare ? none : hertzText(std::min(wanted, predicted.met * fastest)),
-             isRare ? none : hertzText(achieved));
+        show(interval.count() > 1000 ? tr("Signs of a restart") : tr("At intervals"), intervalText(interval),
+             isRare ? none : hertzText(std::min(wanted, predicted.met * fastest)), isRare ? none : hertzText(achieved));
     }
-    show(tr("Bus load"), {}, tr("%1 %").arg(qRound(predicted.busLoad * 100)), tr("%1 %").arg(qRound(m_line->busLoad() * 100)));
+    show(tr("Bus load"), {}, tr("%1 %").arg(qRound(predicted.busLoad * 100)),
+         tr("%1 %").arg(qRound(m_line->busLoad() * 100)));
     for (; row < m_rates.size();)
         show({}, {}, {}, {});
     for (const Row &labels : m_rates) {
@@ -235,9 +244,12 @@ void RatePopup::refreshRates()
 void RatePopup::refreshLimits()
 {
     const std::vector<RateLimit> limits = m_line->limits();
-    const RateLimit &first = limits.front();
-    m_verdict->setText(first.what == What::Nothing ? tr("Nothing holds it up: what is wanted comes")
-                                                   : tr("What takes the time: %1").arg(limitName(first, m_line->baudRate())));
+    if (limits.empty())
+        m_verdict->setText(tr("What takes the time…"));
+    else if (limits.front().what == What::Nothing)
+        m_verdict->setText(tr("Nothing holds it up: what is wanted comes"));
+    else
+        m_verdict->setText(tr("What takes the time: %1").arg(limitName(limits.front(), m_line->baudRate())));
     for (LimitRow &row : m_limits) {
         const auto at = std::ranges::find(limits, row.limit.what, &RateLimit::what);
         const bool isThere = at != limits.end();
@@ -251,7 +263,8 @@ void RatePopup::refreshLimits()
             row.remedy->setText(remedyText(*at));
             row.remedy->setToolTip(plainToolTip(limitHelp(*at, m_line->baudRate())));
         }
-        for (QWidget *widget : {static_cast<QWidget *>(row.name), static_cast<QWidget *>(row.share), static_cast<QWidget *>(row.gain), row.bar})
+        for (QWidget *widget : {static_cast<QWidget *>(row.name), static_cast<QWidget *>(row.share),
+                                static_cast<QWidget *>(row.gain), row.bar})
             widget->setVisible(isThere);
         row.remedy->setVisible(isThere && at->hasRemedy);
     }

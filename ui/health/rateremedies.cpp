@@ -69,8 +69,9 @@ void RateRemedies::askForReturnDelay(LineSession &line, const std::vector<std::u
     QString more = tr("It is kept in EEPROM. The journal can take it back.");
     if (!underTorque.isEmpty())
         more += QLatin1Char(' ')
-            + tr("%1 under torque, which locks it.").arg(underTorque.size() == 1 ? tr("%1 is").arg(underTorque.front())
-                                                                                : tr("%1 are").arg(underTorque.join(QStringLiteral(", "))));
+                + tr("%1 under torque, which locks it.")
+                      .arg(underTorque.size() == 1 ? tr("%1 is").arg(underTorque.front())
+                                                   : tr("%1 are").arg(underTorque.join(QStringLiteral(", "))));
     auto *box = new QMessageBox(QMessageBox::Question, tr("Return Delay Time"), text, QMessageBox::Cancel, m_window);
     box->setObjectName(name);
     box->setTextFormat(Qt::PlainText); // nicknames are in it
@@ -121,7 +122,8 @@ void RateRemedies::finish(const Delays &delays)
     const auto devices = [](int count) { return count == 1 ? tr("one device") : tr("%1 devices").arg(count); };
     if (delays.locked > 0)
         emit posted(MessageKind::Warning,
-                    tr("Return Delay Time stays as it was in %1: torque is on, which locks EEPROM").arg(devices(delays.locked)));
+                    tr("Return Delay Time stays as it was in %1: torque is on, which locks EEPROM")
+                        .arg(devices(delays.locked)));
     if (delays.set > 0)
         emit posted(MessageKind::Success, tr("Return Delay Time is 0 in %1").arg(devices(delays.set)));
 }

@@ -57,17 +57,22 @@ QString limitHelp(const RateLimit &limit, int baudRate)
 {
     switch (limit.what) {
     case What::Baud:
-        return RateTexts::tr("Time in which the wire carries requests and answers at %1. A higher baud rate of all devices "
-                             "makes it shorter, and so do fewer registers.").arg(baudText(baudRate));
+        return RateTexts::tr(
+                   "Time in which the wire carries requests and answers at %1. A higher baud rate of all devices "
+                   "makes it shorter, and so do fewer registers.")
+            .arg(baudText(baudRate));
     case What::ReturnDelay:
-        return RateTexts::tr("So long each device waits before it answers, by a register in its EEPROM: 500 µs as it comes. "
-                             "With 0 it answers at once, which every usual adapter can take.");
+        return RateTexts::tr(
+            "So long each device waits before it answers, by a register in its EEPROM: 500 µs as it comes. "
+            "With 0 it answers at once, which every usual adapter can take.");
     case What::LatencyTimer:
-        return RateTexts::tr("What the adapter holds answers back, and what this computer takes to notice them. USB adapters "
-                             "of the usual kind hold back for 16 ms unless they are told not to.");
+        return RateTexts::tr(
+            "What the adapter holds answers back, and what this computer takes to notice them. USB adapters "
+            "of the usual kind hold back for 16 ms unless they are told not to.");
     case What::PlainReads:
-        return RateTexts::tr("One packet with the values of all devices is shorter than one of each, and only the first "
-                             "device's Return Delay Time counts.");
+        return RateTexts::tr(
+            "One packet with the values of all devices is shorter than one of each, and only the first "
+            "device's Return Delay Time counts.");
     case What::SilentDevice:
         return RateTexts::tr("A device that doesn't answer is asked now and then whether it is back, and waited for.");
     case What::Devices: return RateTexts::tr("About 0.1 ms an answer, which nothing makes shorter.");

@@ -116,6 +116,7 @@ QString JournalModel::authorText(JournalAuthor author)
     case JournalAuthor::Profile: return tr("profile");
     case JournalAuthor::Undo: return tr("undo");
     case JournalAuthor::Stop: return tr("STOP");
+    case JournalAuthor::Packing: return tr("packing");
     }
     return {};
 }

@@ -19,7 +19,7 @@ constexpr std::size_t LongestSpan = 2048; ///< bytes
 constexpr int LargestBaudRate = 100'000'000, LargestId = 253;
 
 constexpr std::array Kinds{"write", "reboot", "reset", "clear", "backup", "restore", "packet"};
-constexpr std::array Authors{"window", "dxl", "profile", "undo", "stop"};
+constexpr std::array Authors{"window", "dxl", "profile", "undo", "stop", "packing"};
 constexpr std::array States{"begun", "done", "unconfirmed", "failed"};
 
 tl::unexpected<Error> damaged(const QString &what)

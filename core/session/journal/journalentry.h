@@ -49,7 +49,7 @@ struct JournalDevice {
 QString deviceText(const JournalDevice &device);
 
 enum class JournalKind { Write, Reboot, FactoryReset, Clear, Backup, Restore, Packet };
-enum class JournalAuthor { Window, CommandLine, Profile, Undo, Stop };
+enum class JournalAuthor { Window, CommandLine, Profile, Undo, Stop, Packing };
 enum class JournalState {
     Begun,       ///< it was about to be written; what became of it was never noted
     Done,        ///< and read back, where it could be
