@@ -16,6 +16,8 @@ struct DeviceWatches {
     std::set<int> unfolded = {}; ///< fields of long runs (indirect.h) that are on screen, too
     std::set<int> signs = {};    ///< read at least each 10 s, whatever else is
     std::map<int, double> rates = {}; ///< of `fields`: Hz
+    std::set<int> glance = {}; ///< read five times a second, whatever else is
+    std::set<int> once = {};   ///< read until they are known
 };
 
 /// How long between two readings at this rate; 0: it is every cycle's.
