@@ -141,7 +141,7 @@ bool Alarms::take(const Subject &subject, const Vitals &vitals, const Now &now)
             if (!vitals.isThere && !vitals.isSilent)
                 continue; // parked, rebooting, or its line is gone
             wanted.level = vitals.isSilent ? AlarmLevel::Over : AlarmLevel::None;
-            wanted.cause = AlarmTexts::tr("does not answer");
+            wanted.cause = AlarmTexts::tr("Does not answer");
         } else if (kind == AlarmKind::Error) {
             if (!vitals.isThere)
                 continue;

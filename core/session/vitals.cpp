@@ -147,11 +147,11 @@ std::vector<VitalField> vitalFields(const ControlTable &table)
 
 LimitSource Vitals::limits() const
 {
-    LimitSource weakest = LimitSource::Device;
+    LimitSource weakest = LimitSource::None;
     for (const Vital vital : {Vital::Load, Vital::Temperature, Vital::Voltage}) {
-        const VitalReading &reading = (*this)[vital];
-        if (reading.field >= 0)
-            weakest = std::min(weakest, reading.high.source);
+        const VitalLimit &limit = (*this)[vital].high;
+        if (limit.isKnown())
+            weakest = weakest == LimitSource::None ? limit.source : std::min(weakest, limit.source);
     }
     return weakest;
 }

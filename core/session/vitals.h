@@ -55,7 +55,7 @@ struct Vitals {
 
     const VitalReading &operator[](Vital vital) const { return readings[static_cast<std::size_t>(vital)]; }
     VitalReading &operator[](Vital vital) { return readings[static_cast<std::size_t>(vital)]; }
-    LimitSource limits() const; ///< the weakest source of the limits of load, temperature and voltage
+    LimitSource limits() const; ///< the weakest source of the known limits of load, temperature and voltage
 };
 
 /// `fields` are those of the device's table. Where several registers say the same, the one nearest to its limit.

@@ -104,6 +104,7 @@ QVariant AlarmModel::data(const QModelIndex &index, int role) const
         return icon(isOver ? QStringLiteral("error") : QStringLiteral("warning"), !alarm.isActive() ? IconTint::Dimmed
                                                                                   : isOver          ? IconTint::Bad
                                                                                            : IconTint::Warning);
+    case ActiveRole: return alarm.isActive();
     case Qt::ToolTipRole: return plainToolTip(QStringLiteral("%1: %2").arg(alarm.name, withMinus(alarm.cause)));
     default: return {};
     }

@@ -16,6 +16,8 @@ class AlarmModel : public QAbstractTableModel
     Q_OBJECT
 
 public:
+    enum Role { ActiveRole = Qt::UserRole }; ///< does it last?
+
     explicit AlarmModel(const AlarmWatch &watch, QObject *parent = nullptr); ///< `watch` outlives this
 
     const Alarm *alarm(int row) const; ///< nullptr: there is none

@@ -4,9 +4,11 @@
 #include "ui/common/flatcontrols.h"
 #include "ui/common/icons.h"
 #include "ui/common/theme.h"
+#include "ui/dashboard/alarmmodel.h"
 #include "ui/dashboard/dashboardmodel.h"
 #include "ui/table/cellpainter.h"
 
+#include <QIcon>
 #include <QPainter>
 
 #include <algorithm>
@@ -185,6 +187,32 @@ void DashboardDelegate::paintVital(QPainter *painter, const QStyleOptionViewItem
     const QRectF track(rect.left(), rect.center().y() + 1 - BarHeight / 2, room, BarHeight);
     const bool isMark = vital == Vital::Position || vital == Vital::Voltage;
     paintBar(painter, track, part.toDouble(), isMark, sign.color, theme.grid);
+}
+
+QSize AlarmDelegate::sizeHint(const QStyleOptionViewItem &option, const QModelIndex &index) const
+{
+    const QSize size = QStyledItemDelegate::sizeHint(option, index);
+    return {size.width(), std::max(RowHeight, option.fontMetrics.height() + 8)};
+}
+
+void AlarmDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
+{
+    painter->save();
+    const ThemeColors &theme = colors(option.palette);
+    paintBackground(painter, option, theme);
+    QRect rect = option.rect.adjusted(CellMargin, 0, -CellMargin, 0);
+    if (const auto sign = index.data(Qt::DecorationRole).value<QIcon>(); !sign.isNull()) {
+        sign.paint(painter, rect.left(), rect.center().y() + 1 - SignSize / 2, SignSize, SignSize);
+        rect.setLeft(rect.left() + SignSize + Gap);
+    }
+    const auto column = static_cast<AlarmColumn>(index.column());
+    const bool isTime = column == AlarmColumn::Time || column == AlarmColumn::Cleared;
+    painter->setFont(isTime ? numberFont(option.font) : option.font);
+    painter->setPen(index.data(AlarmModel::ActiveRole).toBool() ? option.palette.color(QPalette::Active, QPalette::Text)
+                                                                : theme.dimmed);
+    painter->drawText(rect, Qt::AlignLeft | Qt::AlignVCenter | Qt::TextSingleLine,
+                      painter->fontMetrics().elidedText(index.data().toString(), Qt::ElideMiddle, rect.width()));
+    painter->restore();
 }
 
 } // namespace dynascope

@@ -25,7 +25,7 @@ namespace dynascope {
 namespace {
 
 constexpr QSize DefaultSize(1040, 680);
-constexpr QSize LeastSize(840, 400);
+constexpr QSize LeastSize(880, 400);
 constexpr int HeadHeight = 40;
 constexpr qint64 FigureInterval = 190; ///< ms: about as often as they are polled, and figures can be read
 
@@ -212,6 +212,7 @@ QWidget *DashboardDialog::makeAlarms()
     m_alarmStack = new QStackedWidget(part);
     m_alarmView = new QTreeView(m_alarmStack);
     makeFlat(*m_alarmView, "alarmView", tr("Alarms"));
+    m_alarmView->setItemDelegate(new AlarmDelegate(m_alarmView));
     m_alarmView->setModel(m_alarms);
     m_alarmView->header()->setSectionResizeMode(static_cast<int>(AlarmColumn::Cause), QHeaderView::Stretch);
     for (const auto &[column, widest] :

@@ -169,7 +169,7 @@ QString widestNumber(Vital vital)
 {
     switch (vital) {
     case Vital::Position: return QStringLiteral("−000.00");
-    case Vital::Load: return QStringLiteral("−0000.00");
+    case Vital::Load: return QStringLiteral("−0000.0");
     case Vital::Temperature: return QStringLiteral("000");
     case Vital::Voltage: return QStringLiteral("00.0");
     case Vital::Error: break;
