@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/mainwindow.h"
 
+#include "core/session/alarmwatch.h"
 #include "core/session/commands.h"
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
@@ -14,6 +15,7 @@
 #include "ui/common/stopkey.h"
 #include "ui/connection/connectionbar.h"
 #include "ui/connection/connector.h"
+#include "ui/dashboard/dashboarddialog.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
 #include "ui/devices/leftmoves.h"
@@ -48,7 +50,6 @@
 #include <algorithm>
 
 namespace dynascope {
-
 namespace {
 
 const QString PlotsKey = QStringLiteral("window/plots");
@@ -75,6 +76,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     , m_status(new StatusView(this))
     , m_guard(new TorqueGuard(workbench, this))
     , m_firstRead(new FirstRead(workbench, this))
+    , m_alarms(new AlarmWatch(workbench.session, workbench.monitor, this))
 {
     setObjectName(QStringLiteral("mainWindow"));
     setWindowTitle(tr("Dynascope"));
@@ -187,6 +189,7 @@ void MainWindow::connectConnection()
     connect(m_menus, &Menus::commissionRequested, this, &MainWindow::openCommission);
     connect(m_menus, &Menus::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
+    connect(m_menus, &Menus::dashboardRequested, this, &MainWindow::openDashboard);
     connect(m_menus, &Menus::profileRequested, this, &MainWindow::openProfile);
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
     connect(m_menus, &Menus::unitsChosen, this, &MainWindow::setUnits);
@@ -233,10 +236,20 @@ void MainWindow::openLibrary()
     auto *dialog = new LibraryDialog(m_workbench.session.catalog(), m_refused, this);
     dialog->setUnits(savedUnits());
     connect(m_menus, &Menus::unitsChosen, dialog, &LibraryDialog::setUnits);
-    const std::vector<Device *> devices = m_devices->selectedDevices();
-    if (!devices.empty())
+    if (const std::vector<Device *> devices = m_devices->selectedDevices(); !devices.empty())
         dialog->showModel(devices.front()->modelNumber(), devices.front()->firmware());
     present(*dialog);
+}
+
+void MainWindow::openDashboard()
+{
+    if (raiseOpen(*this, QStringLiteral("dashboardDialog")))
+        return;
+    auto *dashboard = new DashboardDialog(m_workbench, *m_alarms, this);
+    dashboard->setUnits(savedUnits());
+    connect(m_menus, &Menus::unitsChosen, dashboard, &DashboardDialog::setUnits);
+    connect(dashboard, &DashboardDialog::deviceChosen, m_devices, &DevicePanel::selectDevice);
+    present(*dashboard);
 }
 
 void MainWindow::openProfile()
@@ -342,8 +355,7 @@ void MainWindow::onSelection()
 
 void MainWindow::focusPane(int pane)
 {
-    QWidget *const panes[]{m_devices, m_table, m_plots};
-    QWidget *target = panes[pane];
+    QWidget *target = std::array<QWidget *, 3>{m_devices, m_table, m_plots}[static_cast<std::size_t>(pane)];
     // The first thing in it that takes keys; a pane itself takes none.
     for (QWidget *child : target->findChildren<QWidget *>()) {
         if (child->isVisible() && child->isEnabled() && child->inherits("QAbstractItemView")

@@ -13,6 +13,7 @@ class QStackedWidget;
 
 namespace dynascope {
 
+class AlarmWatch;
 class ConnectionBar;
 class Connector;
 class DevicePanel;
@@ -65,6 +66,7 @@ private:
     void onSelection();
     void onLines();
     void openLibrary();
+    void openDashboard();
     void openProfile();
     void openCommission();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
@@ -92,6 +94,7 @@ private:
     Menus *m_menus;
     TorqueGuard *m_guard;
     FirstRead *m_firstRead;
+    AlarmWatch *m_alarms;
 };
 
 } // namespace dynascope

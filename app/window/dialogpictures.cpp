@@ -47,6 +47,7 @@ std::vector<DialogPictures::One> DialogPictures::all()
              {[this] { return openProfile(); }, clicking("compareButton"), [this] { return m_open.data(); }}},
             {"profile-plan", QSize(1000, 560), {clicking("applyButton"), agreeing}},
             {"commission", QSize(720, 560), {[this] { return open("commissionAction", "commissionDialog"); }}},
+            {"dashboard", QSize(960, 640), {[this] { return open("dashboardAction", "dashboardDialog"); }}},
             {"restore", QSize(640, 520), {[this] { return openRestore(); }, agreeing}},
             {"consequences", QSize(), {[this] { return openConsequences(); }}}};
 }

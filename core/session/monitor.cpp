@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/monitor.h"
 
+#include "core/session/vitals.h"
 #include "core/session/watchplan.h"
 #include "core/table/units.h"
 
@@ -118,6 +119,53 @@ void Monitor::setSigns(DeviceKey device, const std::set<int> &fields)
     replanSoon();
 }
 
+void Monitor::setGlancing(bool glancing)
+{
+    if (m_isGlancing == glancing)
+        return;
+    m_isGlancing = glancing;
+    replanSoon();
+}
+
+/// What is read of a device besides, so that all of them can be told at a glance.
+void Monitor::glance(DeviceWatches &watches)
+{
+    for (const VitalField &vital : vitalFields(watches.device->table())) {
+        if (vital.vital == Vital::Position || vital.vital == Vital::Load)
+            watches.glance.insert(vital.field);
+    }
+    watches.once = unknownLimits(*watches.device);
+}
+
+/// Of the registers that say how far values may go, those that nobody has read yet.
+std::set<int> Monitor::unknownLimits(const Device &device)
+{
+    const ControlTable &table = device.table();
+    std::set<int> limits{table.indexOf(Known::OperatingMode)};
+    for (const VitalField &vital : vitalFields(table))
+        limits.insert({vital.low, vital.high});
+    if (const Field *goal = table.find(u"Goal Position"))
+        limits.insert({table.indexOf(goal->minimum.reg), table.indexOf(goal->maximum.reg)});
+    std::set<int> unknown;
+    for (const int limit : limits) {
+        if (limit >= 0 && !device.value(limit).raw)
+            unknown.insert(limit);
+    }
+    return unknown;
+}
+
+/// Has something come that needed to be read only once?
+bool Monitor::learned(const Batch &batch) const
+{
+    return std::ranges::any_of(batch.values, [this](const PollValue &value) {
+        const auto asked = m_asked.find(value.device);
+        const Device *device = asked == m_asked.end() || value.data.empty() ? nullptr : m_session.device(value.device);
+        return device && std::ranges::any_of(asked->second, [device](int field) {
+            return device->value(field).raw.has_value();
+        });
+    });
+}
+
 void Monitor::clear()
 {
     m_histories.erase([this](const Watch &watch) { return !m_watches.contains(watch); });
@@ -149,7 +197,9 @@ PollPlan Monitor::planOf(const LineSession &line, const PackingOf &packing) cons
         if (m_paused)
             break;
         const bool isSelected = std::ranges::find(m_selected, device->key()) != m_selected.end();
-        DeviceWatches watches{device.get(), {}, isSelected, {}, {}, {}, packing(*device)};
+        DeviceWatches watches{device.get(), {}, isSelected, {}, {}, {}, packing(*device), {}, {}};
+        if (m_isGlancing)
+            glance(watches);
         for (auto at = m_unfolded.lower_bound({device->key(), 0});
              isSelected && at != m_unfolded.end() && at->device == device->key(); ++at)
             watches.unfolded.insert(at->field);
@@ -180,9 +230,14 @@ void Monitor::markGaps(const LineSession &line)
 
 void Monitor::replan()
 {
+    m_asked.clear();
     for (const auto &line : m_session.lines()) {
         if (!m_paused)
             markGaps(*line);
+        for (const auto &device : line->devices()) {
+            if (m_isGlancing && !m_paused)
+                m_asked[device->key()] = unknownLimits(*device);
+        }
         PollPlan plan = planOf(*line, [&line](const Device &device) { return line->packing(device.key()); });
         SentPlan &sent = m_sentPlans[line.get()];
         if (sent.generation != line->generation())
@@ -196,6 +251,8 @@ void Monitor::replan()
 
 void Monitor::record(const Batch &batch)
 {
+    if (!m_asked.empty() && learned(batch))
+        replanSoon();
     for (const PollValue &value : batch.values) {
         const Device *device = m_session.device(value.device);
         if (!device)

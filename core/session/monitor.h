@@ -10,10 +10,13 @@
 
 namespace dynascope {
 
+struct DeviceWatches;
+
 /// Decides what is polled and keeps the histories of what is watched. GUI thread.
 ///
 /// Watched fields at full rate, or as often as is wanted; RAM of the selected device at 10 Hz; Torque Enable, Hardware
 /// Error Status, temperature and voltage of all devices at 1 Hz; what tells of a restart each 9 s.
+/// While somebody looks at all devices at a glance, also their position and load.
 class Monitor : public QObject
 {
     Q_OBJECT
@@ -33,6 +36,10 @@ public:
     void setUnfolded(const std::set<Watch> &fields);
     /// What is read of this device at least each 10 s, whatever else is: what tells of a restart.
     void setSigns(DeviceKey device, const std::set<int> &fields);
+
+    /// Position and load of all devices five times a second, and their limits once: somebody looks at all of them.
+    void setGlancing(bool glancing);
+    bool isGlancing() const { return m_isGlancing; }
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
@@ -61,6 +68,9 @@ private:
     void replan();
     void markGaps(const LineSession &line);
     void record(const Batch &batch);
+    static void glance(DeviceWatches &watches);
+    static std::set<int> unknownLimits(const Device &device);
+    bool learned(const Batch &batch) const;
 
     Session &m_session;
     std::set<Watch> m_watches;
@@ -69,6 +79,8 @@ private:
     std::vector<DeviceKey> m_selected;
     std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back
+    std::map<DeviceKey, std::set<int>> m_asked; ///< read until they are known, by the last plan
+    bool m_isGlancing = false;
     bool m_paused = false;
     bool m_mayReadFast = true;
     QTimer m_replanTimer;

@@ -1,4 +1,6 @@
 target_sources(dynascope_core PRIVATE
+    session/alarms.cpp session/alarms.h
+    session/alarmwatch.cpp session/alarmwatch.h
     session/answerfaults.cpp session/answerfaults.h
     session/backup/backup.cpp session/backup/backup.h
     session/backup/backupcommands.cpp session/backup/backupcommands.h
@@ -20,6 +22,7 @@ target_sources(dynascope_core PRIVATE
     session/devicekeys.cpp session/devicekeys.h
     session/deviceplace.cpp session/deviceplace.h
     session/eventlog.cpp session/eventlog.h
+    session/faultrecords.cpp session/faultrecords.h
     session/groupwrite.cpp session/groupwrite.h
     session/histories.cpp session/histories.h
     session/history.cpp session/history.h
@@ -86,6 +89,7 @@ target_sources(dynascope_core PRIVATE
     session/spanmeasure.cpp session/spanmeasure.h
     session/stopcontrol.cpp session/stopcontrol.h
     session/trigger.cpp session/trigger.h
+    session/vitals.cpp session/vitals.h
     session/volatilespan.cpp session/volatilespan.h
     session/watch.h
     session/watchplan.cpp session/watchplan.h

@@ -2,6 +2,7 @@
 #include "core/session/watchplan.h"
 
 #include "core/session/commands.h"
+#include "core/session/vitals.h"
 #include "core/table/indirect.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto SelectedInterval = 100ms;
+constexpr auto GlanceInterval = 200ms;
 constexpr auto StateInterval = 1000ms;
 constexpr auto SignInterval = 9000ms; ///< with a cycle that is late still within 10 s
 
@@ -31,8 +33,8 @@ std::set<int> foldedFields(const DeviceWatches &watches)
 
 bool isState(const Field &field)
 {
-    return field.name == QLatin1String("Torque Enable") || field.name == QLatin1String("Hardware Error Status")
-        || field.name == QLatin1String("Present Input Voltage") || field.name == QLatin1String("Present Temperature");
+    return field.name == QLatin1String("Torque Enable") || isVital(field, Vital::Error) || isVital(field, Vital::Voltage)
+        || isVital(field, Vital::Temperature);
 }
 
 /// What of the selected device is read all the time. Where nobody knows what a register is, reading waits to be asked.
@@ -47,6 +49,11 @@ bool isUnknownManner(const Device &device, const Field &field)
     const ControlTable &table = device.table();
     return (&field == table.find(Known::ReturnDelayTime) || &field == table.find(Known::StatusReturnLevel))
         && !device.raw(field.name);
+}
+
+bool isAtFullRate(const DeviceWatches &watches, int field)
+{
+    return std::ranges::find(watches.fields, field) != watches.fields.end() && !watches.rates.contains(field);
 }
 
 void addSpans(PollPlan &plan, const Device &device, std::chrono::milliseconds interval,
@@ -117,9 +124,17 @@ PollPlan planWatches(const std::vector<DeviceWatches> &devices, int baudRate)
                 return isLive(field) && !folded.contains(static_cast<int>(&field - first));
             });
         }
+        addSpans(plan, device, GlanceInterval, [&](const Field &field) {
+            const int index = static_cast<int>(&field - first);
+            const bool isRead = watches.isSelected && isLive(field);
+            return watches.glance.contains(index) && !isRead && !isAtFullRate(watches, index);
+        });
         addSpans(plan, device, StateInterval, [&](const Field &field) {
             const bool isRead = watches.isSelected && isLive(field);
-            return !isRead && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field));
+            const int index = static_cast<int>(&field - first);
+            return !isRead
+                && ((isState(field) && !watches.isSelected) || isUnknownManner(device, field)
+                    || (watches.once.contains(index) && !device.value(index).raw));
         });
         if (watches.packing) { // another program may set them anew
             addSpans(plan, device, StateInterval, [&](const Field &field) {

@@ -18,6 +18,8 @@ struct DeviceWatches {
     std::set<int> signs = {};    ///< read at least each 10 s, whatever else is
     std::map<int, double> rates = {}; ///< of `fields`: Hz
     const IndirectPacking *packing = nullptr; ///< what of `fields` is at full rate, and in it, is read by it
+    std::set<int> glance = {}; ///< read five times a second, whatever else is
+    std::set<int> once = {};   ///< read until they are known
 };
 
 /// How long between two readings at this rate; 0: it is every cycle's.

@@ -93,6 +93,36 @@ private slots:
         QCOMPARE(monitor.history(drive)->last().raw, -7);
     }
 
+    void aGlanceAsksForAllDevicesButPlotsNothing()
+    {
+        VirtualSession all(m_catalog, QStringLiteral("XM430-W350@57600:1,XL430-W250@57600:2"));
+        Monitor monitor(all.session);
+        all.open(57600);
+        const auto spans = [&] {
+            std::set<int> ids;
+            for (const PollSpan &span : all.line->pollPlan().spans) {
+                if (span.interval == std::chrono::milliseconds(200))
+                    ids.insert(span.span.id);
+            }
+            return ids;
+        };
+        monitor.setGlancing(true);
+        QVERIFY(VirtualSession::waitFor([&] { return spans() == std::set<int>{1, 2}; }));
+        QVERIFY(monitor.watches().empty());
+        // Limits are read until they are known, and no longer.
+        const Device &device = *all.line->devices().front();
+        const int limit = device.table().indexOf(u"Temperature Limit");
+        const auto isAsked = [&] {
+            return std::ranges::any_of(all.line->pollPlan().spans, [](const PollSpan &span) {
+                return span.span.id == 1 && span.span.address <= 31 && span.span.address + span.span.length > 31;
+            });
+        };
+        QVERIFY(VirtualSession::waitFor([&] { return device.value(limit).raw.has_value(); }));
+        QVERIFY(VirtualSession::waitFor([&] { return !isAsked(); }));
+        monitor.setGlancing(false);
+        QVERIFY(VirtualSession::waitFor([&] { return spans().empty(); }));
+    }
+
 private:
     /// As if a poll had brought it.
     static void poll(LineSession &line, const Device &device, int fieldIndex, std::int64_t raw = 7, int at = 1)

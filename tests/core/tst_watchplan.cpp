@@ -106,6 +106,34 @@ private slots:
         QCOMPARE(plan, QStringList({QStringLiteral("#2 64+84 every 100 ms"), QStringLiteral("#2 9+1 every 1000 ms")}));
     }
 
+    void whatIsGlancedAtIsReadBesides()
+    {
+        Device device(1, nullptr, m_table, {1, 57600, 1020, 45, false, {}});
+        device.takeReadBack(m_table->indexOf(u"Return Delay Time"), 0);
+        const int position = m_table->indexOf(u"Present Position");
+        const int current = m_table->indexOf(u"Present Current");
+        const int limit = m_table->indexOf(u"Temperature Limit");
+        DeviceWatches watches{&device, {}, false};
+        watches.glance = {position, current};
+        watches.once = {limit};
+        const QString once = QStringLiteral("#1 31+1 every 1000 ms");
+        QStringList plan = asText(planWatches({watches}, 57600));
+        const QString both = QStringLiteral("#1 126+10 every 200 ms"); // velocity is between them
+        QVERIFY2(plan.contains(both), qPrintable(plan.join(u'\n')));
+        QVERIFY(plan.contains(once));
+        device.takeReadBack(limit, 80); // known: not read again
+        QVERIFY(!asText(planWatches({watches}, 57600)).contains(once));
+        watches.fields = {position}; // at full rate anyway
+        plan = asText(planWatches({watches}, 57600));
+        QVERIFY(!plan.contains(both));
+        QVERIFY(plan.contains(QStringLiteral("#1 126+2 every 200 ms")));
+        watches.rates[position] = 1; // more rarely than a glance needs
+        QVERIFY(asText(planWatches({watches}, 57600)).contains(both));
+        watches.isSelected = true; // at 10 Hz anyway
+        plan = asText(planWatches({watches}, 57600));
+        QVERIFY(plan.filter(QStringLiteral("every 200 ms")).isEmpty());
+    }
+
     void longRunsArePolledOnlyWhereTheyAreUnfolded()
     {
         const Device device(2, nullptr, m_table, {2, 57600, 1020, 45, false, {}});

@@ -139,6 +139,10 @@ void Menus::makeViewMenu(LayoutManager &layout)
     connect(&layout, &LayoutManager::plotPlaceChanged, this, tick);
     tick();
     menu->addSeparator();
+    QAction *dashboard = add(menu, QStringLiteral("dashboardAction"), tr("At a &glance…"), QStringLiteral("Ctrl+G"),
+                             QStringLiteral("gauge"));
+    dashboard->setToolTip(tr("All devices in one table, the worst first, and their alarms"));
+    connect(dashboard, &QAction::triggered, this, &Menus::dashboardRequested);
     addHealth(menu, layout);
     QAction *library = add(menu, QStringLiteral("libraryAction"), tr("&Look up control tables…"),
                            QStringLiteral("Ctrl+Shift+L"), QStringLiteral("search"));

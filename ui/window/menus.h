@@ -45,6 +45,7 @@ signals:
     void unitsChosen(const dynascope::UnitPreferences &units);
     void focusRequested(int pane); ///< 0 devices, 1 table, 2 plots
     void libraryRequested();
+    void dashboardRequested();
     void profileRequested();
     void commissionRequested();
     void resumeDemoRequested();
