@@ -28,6 +28,7 @@
 #include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
 #include "ui/profile/profileview.h"
+#include "ui/record/recordactions.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
 #include "ui/window/layoutmanager.h"
@@ -72,6 +73,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     , m_devices(new DevicePanel(workbench, this))
     , m_table(new TablePanel(workbench, this))
     , m_plots(new PlotArea(workbench, this))
+    , m_record(new RecordActions(workbench, m_plots->events(), this))
     , m_health(new HealthPanel(this))
     , m_status(new StatusView(this))
     , m_guard(new TorqueGuard(workbench, this))
@@ -91,7 +93,10 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
         connect(undo, &UndoActions::failed, m_messages,
                 [this](const QString &what) { m_messages->post(MessageKind::Error, what); });
     }
-    m_menus = new Menus(*this, {m_devices->actions().menuActions(), m_plots->saveActions(), editActions}, *m_layout);
+    std::vector<QAction *> saveActions = m_plots->saveActions();
+    saveActions.push_back(nullptr);
+    std::ranges::copy(m_record->actions(), std::back_inserter(saveActions));
+    m_menus = new Menus(*this, {m_devices->actions().menuActions(), saveActions, editActions}, *m_layout);
     new Nicknames(workbench, this);
 
     auto *key = new StopKey(this);
@@ -156,6 +161,7 @@ void MainWindow::build()
     addToolBar(Qt::TopToolBarArea, m_bar);
     setContextMenuPolicy(Qt::NoContextMenu); // the one of a QMainWindow hides tool bars
     statusBar()->addWidget(m_status, 1);
+    statusBar()->addPermanentWidget(m_record->badge());
     statusBar()->setSizeGripEnabled(false);
     // Both lie over the window: what moved under a pointer would have another servo hit. STOP's takes the place of the
     // figures, for it may stay long.
@@ -218,6 +224,7 @@ void MainWindow::connectDevices()
     connect(m_table, &TablePanel::notWritten, this,
             [this](const QString &text) { m_messages->post(MessageKind::Error, text); });
     connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(m_record, &RecordActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 
 void MainWindow::setRefusedTables(const std::vector<RefusedTable> &refused)
@@ -397,6 +404,7 @@ void MainWindow::closeEvent(QCloseEvent *event)
         event->ignore();
         return;
     }
+    m_record->finish();
     saveParts();
     closeDialogs(*this);
     QMainWindow::closeEvent(event);

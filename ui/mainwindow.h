@@ -23,6 +23,7 @@ class LayoutManager;
 class Menus;
 class MessageBar;
 class PlotArea;
+class RecordActions;
 class StatusView;
 class TablePanel;
 class TorqueGuard;
@@ -88,6 +89,7 @@ private:
     DevicePanel *m_devices;
     TablePanel *m_table;
     PlotArea *m_plots;
+    RecordActions *m_record;
     HealthPanel *m_health;
     StatusView *m_status;
     LayoutManager *m_layout;

@@ -35,10 +35,13 @@ Result<bool> McapSink::setDevice(const RecordedDevice &device)
     m_writer->addMetadata(QString::fromUtf16(DeviceName), textsOf(device));
     const auto known = std::find_if(m_header.devices.begin(), m_header.devices.end(),
                                     [&](const RecordedDevice &one) { return one.key == device.key; });
+    const bool isSame = known != m_header.devices.end() && known->fields == device.fields && known->label == device.label;
     if (known == m_header.devices.end())
         m_header.devices.push_back(device);
     else
         *known = device;
+    if (isSame) // its registers are known now, or it stands elsewhere: the topics stay
+        return true;
     std::erase_if(m_channels, [&](const auto &entry) {
         const auto &devices = entry.first.second;
         return std::find(devices.begin(), devices.end(), device.key) != devices.end();

@@ -12,7 +12,7 @@
 
 namespace dynascope::posix {
 
-Result<UdpSender> UdpSender::open(const QString &place)
+Result<UdpSender> UdpSender::open(const QString &place, Names names)
 {
     const qsizetype colon = place.lastIndexOf(u':');
     QString host = place.left(qMax<qsizetype>(0, colon));
@@ -28,10 +28,14 @@ Result<UdpSender> UdpSender::open(const QString &place)
     }
     addrinfo hints{};
     hints.ai_socktype = SOCK_DGRAM;
-    hints.ai_flags = AI_NUMERICSERV;
+    hints.ai_flags = AI_NUMERICSERV | (names == Names::Refuse ? AI_NUMERICHOST : 0);
     addrinfo *first = nullptr;
-    const QByteArray name = host.isEmpty() ? QByteArray("127.0.0.1") : host.toUtf8();
+    const QByteArray name = host.isEmpty() || host == QStringLiteral("localhost") ? QByteArray("127.0.0.1") : host.toUtf8();
     const int error = ::getaddrinfo(name.constData(), QByteArray::number(port).constData(), &hints, &first);
+    if (error != 0 && names == Names::Refuse) {
+        return failure(ErrorKind::InvalidArgument,
+                       QStringLiteral("\"%1\" is no IP address, such as 192.168.1.20; names aren't looked up here").arg(host));
+    }
     const std::unique_ptr<addrinfo, void (*)(addrinfo *)> addresses(error == 0 ? first : nullptr,
                                                                     [](addrinfo *a) { if (a) ::freeaddrinfo(a); });
     for (const addrinfo *one = addresses.get(); one; one = one->ai_next) {

@@ -13,9 +13,11 @@ class UdpSender
 public:
     static constexpr qsizetype LargestDatagram = 60'000; ///< bytes; the most there is is 65507
 
-    /// "9870" and ":9870" (this machine), "HOST:9870", "[::1]:9870". HOST may be looked up, which may take a while.
-    /// InvalidArgument: it is no such place; NotFound: nobody knows HOST.
-    static Result<UdpSender> open(const QString &place);
+    enum class Names { LookUp, Refuse }; ///< looking one up may take a while; "localhost" is never looked up
+
+    /// "9870" and ":9870" (this machine), "HOST:9870", "[::1]:9870".
+    /// InvalidArgument: it is no such place, or a name where none is wanted; NotFound: nobody knows HOST.
+    static Result<UdpSender> open(const QString &place, Names names = Names::LookUp);
     ~UdpSender();
     UdpSender(UdpSender &&other) noexcept;
     UdpSender &operator=(UdpSender &&) = delete;

@@ -42,7 +42,7 @@ const std::vector<Rule> &rules()
         {"core/", values},
         {"ui/traffic/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s,
                                              u"core/protocol/*"_s, u"core/bus/*_values.h"_s}},
-        {"ui/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s,
+        {"ui/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s, u"core/record/*"_s,
                                      u"core/protocol/*_values.h"_s, u"core/bus/*_values.h"_s}},
         {"app/", {u"app/*"_s, u"core/*"_s, u"ui/*"_s}},
     };

@@ -29,5 +29,6 @@ if(UNIX)
         support/ptyclient_posix.cpp support/ptyclient.h
         support/loopbackserver_posix.cpp support/loopbackserver.h
         support/ptymaster_posix.cpp support/ptymaster.h
+        support/udpreceiver_posix.cpp support/udpreceiver.h
     )
 endif()

@@ -73,8 +73,12 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
                            QStringLiteral("differs"));
     connect(profile, &QAction::triggered, this, &Menus::profileRequested);
     menu->addSeparator();
-    for (QAction *action : saveActions)
-        menu->addAction(action);
+    for (QAction *action : saveActions) {
+        if (action)
+            menu->addAction(action);
+        else
+            menu->addSeparator();
+    }
     menu->addSeparator();
     QAction *quit = add(menu, QStringLiteral("quitAction"), tr("&Quit"), QStringLiteral("Ctrl+Q"));
     quit->setMenuRole(QAction::QuitRole);
