@@ -172,11 +172,25 @@ private slots:
         });
         bool isBack = false;
         world.all.commands.reboot(world.device(), [&](const Result<void> &) { isBack = true; });
+        bool isPassing = false;
+        const auto passTime = [&] { // between two exchanges: within one an answer would come too late
+            if (isPassing)
+                return;
+            isPassing = true;
+            world.all.line->bus().run<void>(
+                Priority::Click, nullptr,
+                [&](JobContext &context) {
+                    world.all.factory.passing += LineTime(std::chrono::milliseconds(200)).count();
+                    world.all.factory.simulated.advanceTo(context.bus().line().now());
+                    return Result<void>();
+                },
+                [&](const Result<void> &) { isPassing = false; });
+        };
         QVERIFY(VirtualSession::waitFor([&] {
-            world.all.factory.passing = std::chrono::nanoseconds(std::chrono::milliseconds(200)).count();
+            passTime();
             return isBack && world.reads->packedDevices(*world.all.line) == 0;
         }));
-        world.all.factory.passing = 0;
+        QVERIFY(VirtualSession::waitFor([&] { return !isPassing; }));
         QVERIFY(world.isIdle());
         QVERIFY(world.isReadNow(u"Goal PWM"_s));
         QCOMPARE(world.last(u"Goal PWM"_s), 885);
