@@ -62,8 +62,9 @@ void putRaw(const RecordedField &field, int address, std::int64_t raw, std::span
     const int offset = field.address - address;
     if (offset < 0 || offset + field.size > static_cast<int>(registers.size()))
         return;
-    for (int i = 0; i < field.size; ++i)
-        registers[static_cast<std::size_t>(offset + i)] = static_cast<std::uint8_t>(raw >> (8 * i));
+    const auto first = static_cast<std::size_t>(offset);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(field.size); ++i)
+        registers[first + i] = static_cast<std::uint8_t>(raw >> (8 * i));
 }
 
 double physicalValue(const RecordedField &field, std::int64_t raw)

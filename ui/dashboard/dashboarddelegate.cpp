@@ -66,9 +66,9 @@ Sign signOf(AlarmLevel level, const ThemeColors &theme)
 
 void paintSign(QPainter *painter, int left, int middle, const Sign &sign)
 {
+    const int top = middle - SignSize / 2;
     if (sign.icon)
-        paintIcon(painter, QRectF(left, middle - SignSize / 2, SignSize, SignSize), QLatin1String(sign.icon),
-                  sign.color);
+        paintIcon(painter, QRectF(left, top, SignSize, SignSize), QLatin1String(sign.icon), sign.color);
 }
 
 /// From the left what is used up, or, where both ends are limits, a mark.
@@ -184,7 +184,8 @@ void DashboardDelegate::paintVital(QPainter *painter, const QStyleOptionViewItem
     const int room = std::min(numberRect.width() - used - Gap, WidestBar);
     if (!part.isValid() || room < LeastBar)
         return; // the number says it
-    const QRectF track(rect.left(), rect.center().y() + 1 - BarHeight / 2, room, BarHeight);
+    const int top = rect.center().y() + 1 - BarHeight / 2;
+    const QRectF track(rect.left(), top, room, BarHeight);
     const bool isMark = vital == Vital::Position || vital == Vital::Voltage;
     paintBar(painter, track, part.toDouble(), isMark, sign.color, theme.grid);
 }
