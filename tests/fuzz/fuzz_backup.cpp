@@ -47,8 +47,11 @@ void plan(const Backup &backup, int firmware)
         must(!restored.error().text.isEmpty(), "a refusal has a reason");
         return;
     }
-    for (const SettingsStep &step : restored->settings.steps)
-        must(!step.isGoal && table->at(step.where.address) != table->find(Known::TorqueEnable), "nothing moves");
+    // A goal that a new mode resets is given back what the device held; none gets what the file says.
+    for (const SettingsStep &step : restored->settings.steps) {
+        const bool isTorque = table->at(step.where.address) == table->find(Known::TorqueEnable);
+        must((!step.isGoal || step.to.empty()) && !isTorque, "nothing moves");
+    }
 }
 
 } // namespace
