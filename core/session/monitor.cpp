@@ -128,13 +128,14 @@ void Monitor::setGlancing(bool glancing)
 }
 
 /// What is read of a device besides, so that all of them can be told at a glance.
-void Monitor::glance(DeviceWatches &watches)
+void Monitor::glance(DeviceWatches &watches) const
 {
     for (const VitalField &vital : vitalFields(watches.device->table())) {
         if (vital.vital == Vital::Position || vital.vital == Vital::Load)
             watches.glance.insert(vital.field);
     }
-    watches.once = unknownLimits(*watches.device);
+    if (const auto asked = m_asked.find(watches.device->key()); asked != m_asked.end())
+        watches.once = asked->second;
 }
 
 /// Of the registers that say how far values may go, those that nobody has read yet.

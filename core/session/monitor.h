@@ -68,7 +68,7 @@ private:
     void replan();
     void markGaps(const LineSession &line);
     void record(const Batch &batch);
-    static void glance(DeviceWatches &watches);
+    void glance(DeviceWatches &watches) const;
     static std::set<int> unknownLimits(const Device &device);
     bool learned(const Batch &batch) const;
 
