@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
 #include "app/dxl/interrupt.h"
-#include "app/dxl/pace.h"
+#include "app/dxl/pacedpolling.h"
 #include "app/dxl/recorddevices.h"
-#include "core/bus/poller.h"
 #include "core/record/jsonsample.h"
 #include "core/record/recorder.h"
 #include "core/record/udpsender_posix.h"
@@ -15,7 +14,6 @@
 namespace dynascope::dxl {
 namespace {
 
-using namespace std::chrono_literals;
 
 /// Says when a device falls silent, and when it is back; not each time.
 void noteSilence(const Work &work, std::set<quint32> &silent, const Batch &batch)
@@ -41,28 +39,16 @@ void send(posix::UdpSender &sender, const Batch &batch, const RecordingHeader &h
 /// Until the time is over, somebody interrupts, or the disk fails.
 Result<void> poll(const Work &work, const RecordPlan &plan, Recorder &recorder, std::optional<posix::UdpSender> &sender)
 {
-    Poller poller(work.bus);
-    poller.setPlan(plan.poll);
-    Pace pace(work.options.record.rate, work.options.seconds, work.bus.line().now());
-    Batch batch;
     std::set<quint32> silent;
-    while (!interrupted() && recorder.isRunning() && !pace.isOver(work.bus.line().now())) {
-        const LineTime now = work.bus.line().now();
-        const LineTime idle = std::max(pace.until(now), poller.nextDue() - now);
-        if (idle > 0ns) {
-            if (const auto waited = work.bus.wait(std::min<LineTime>(idle, 20ms)); !waited)
-                return waited;
-            continue;
-        }
-        if (const auto done = poller.runCycle(batch); !done)
-            return done;
-        pace.taken(batch.begin);
-        recorder.add(batch);
-        noteSilence(work, silent, batch);
-        if (sender)
-            send(*sender, batch, plan.header);
-    }
-    return {};
+    return pollPaced(
+        work.bus, plan.poll, Pace(work.options.record.rate, work.options.seconds, work.bus.line().now()),
+        [&] { return !interrupted() && recorder.isRunning(); },
+        [&](const Batch &batch) {
+            recorder.add(batch);
+            noteSilence(work, silent, batch);
+            if (sender)
+                send(*sender, batch, plan.header);
+        });
 }
 
 void report(const Work &work, const RecorderStatus &status, LineTime length)

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
 #include "app/dxl/interrupt.h"
-#include "app/dxl/pace.h"
+#include "app/dxl/pacedpolling.h"
 #include "app/dxl/target.h"
 #include "app/dxl/watchedfields.h"
-#include "core/bus/poller.h"
 
 #include <algorithm>
 
@@ -12,7 +11,6 @@ namespace dynascope::dxl {
 
 namespace {
 
-using namespace std::chrono_literals;
 
 /// Says when a device falls silent, and when it is back; not each time.
 void noteSilence(const Work &work, std::vector<WatchedField> &fields, const Batch &batch)
@@ -45,27 +43,15 @@ struct Taken {
 /// One sample after the other.
 Result<void> watch(const Work &work, std::vector<WatchedField> &fields, LineTime begin, Taken &taken)
 {
-    Poller poller(work.bus);
-    poller.setPlan(planOf(work.bus, fields));
-    Pace pace(work.options.rate, work.options.seconds, begin);
-    Batch batch;
     const auto limit = static_cast<quint64>(work.options.count.value_or(0));
-    while (!work.output.isClosed() && !pace.isOver(work.bus.line().now()) && (limit == 0 || taken.samples < limit)) {
-        const LineTime now = work.bus.line().now();
-        const LineTime idle = std::max(pace.until(now), poller.nextDue() - now);
-        if (idle > 0ns) {
-            if (const auto waited = work.bus.wait(std::min<LineTime>(idle, 20ms)); !waited)
-                return waited;
-            continue;
-        }
-        if (const auto done = poller.runCycle(batch); !done)
-            return done;
-        pace.taken(batch.begin);
-        taken.add(batch.begin);
-        noteSilence(work, fields, batch);
-        work.output.line(sampleLine(work.options, fields, batch, seconds(batch.begin - begin)));
-    }
-    return {};
+    return pollPaced(
+        work.bus, planOf(work.bus, fields), Pace(work.options.rate, work.options.seconds, begin),
+        [&] { return !work.output.isClosed() && (limit == 0 || taken.samples < limit); },
+        [&](const Batch &batch) {
+            taken.add(batch.begin);
+            noteSilence(work, fields, batch);
+            work.output.line(sampleLine(work.options, fields, batch, seconds(batch.begin - begin)));
+        });
 }
 
 void report(const Work &work, const Taken &taken)
