@@ -14,7 +14,6 @@
 namespace dynascope::dxl {
 namespace {
 
-
 /// Says when a device falls silent, and when it is back; not each time.
 void noteSilence(const Work &work, std::set<quint32> &silent, const Batch &batch)
 {

@@ -11,7 +11,6 @@ namespace dynascope::dxl {
 
 namespace {
 
-
 /// Says when a device falls silent, and when it is back; not each time.
 void noteSilence(const Work &work, std::vector<WatchedField> &fields, const Batch &batch)
 {
