@@ -92,6 +92,14 @@ private:
 
 } // namespace
 
+std::vector<int> IndirectPacking::fields() const
+{
+    std::vector<int> all;
+    for (const Place &place : places)
+        all.push_back(place.field);
+    return all;
+}
+
 int IndirectPacking::addressOf(int field) const
 {
     const auto place = std::ranges::find(places, field, &Place::field);
@@ -143,6 +151,30 @@ Result<IndirectPacking> packIndirect(const ControlTable &table, const std::vecto
     packing.address = table.fields()[static_cast<std::size_t>(found.front().data)].address;
     packing.length = static_cast<std::uint16_t>(bytes.size());
     packing.bytesSpared = spared;
+    return packing;
+}
+
+bool isSettableEntry(const Field &field)
+{
+    return indirectAddressNumber(field) > 0 && field.isWritable() && field.area == Area::Ram;
+}
+
+bool mayBePointedAt(const Field &field)
+{
+    return (field.area == Area::Ram || field.area == Area::Hybrid) && field.access != Access::Unknown
+        && indirectDataNumber(field) == 0 && indirectAddressNumber(field) == 0;
+}
+
+Result<IndirectPacking> packWorthwhile(const ControlTable &table, const std::vector<int> &fields,
+                                       const std::function<std::optional<std::int64_t>(int field)> &known,
+                                       UsedEntries used)
+{
+    const auto isLasting = [](const Field &field) { return indirectAddressNumber(field) > 0 && !isSettableEntry(field); };
+    if (std::ranges::any_of(table.fields(), isLasting))
+        return failure(ErrorKind::NotSupported, IndirectTexts::tr("its Indirect Addresses are in EEPROM"));
+    auto packing = packIndirect(table, fields, known, used, PackingMark::Last);
+    if (packing && packing->bytesSpared <= 1)
+        return failure(ErrorKind::NotSupported, IndirectTexts::tr("what is plotted at full rate stands side by side"));
     return packing;
 }
 

@@ -29,11 +29,15 @@ struct IndirectPacking {
     int mark = -1;
     int bytesSpared = 0;                   ///< of those that reading from the first register to the last would take
 
+    std::vector<int> fields() const; ///< that are packed, in the order of the stretch
     /// Where `field` is now to be read; −1: it isn't packed.
     int addressOf(int field) const;
     /// Do these bytes, as read, come by way of the entries?
     bool isThrough(ByteView data) const;
 };
+
+bool isSettableEntry(const Field &field); ///< an Indirect Address in RAM
+bool mayBePointedAt(const Field &field);
 
 enum class UsedEntries { Refuse, Take };
 enum class PackingMark { None, Last };
@@ -45,5 +49,9 @@ enum class PackingMark { None, Last };
 Result<IndirectPacking> packIndirect(const ControlTable &table, const std::vector<int> &fields,
                                      const std::function<std::optional<std::int64_t>(int field)> &known,
                                      UsedEntries used = UsedEntries::Refuse, PackingMark mark = PackingMark::None);
+/// With a mark, and only where it spares more than a byte a read and no entry lasts beyond power-off; else NotSupported.
+Result<IndirectPacking> packWorthwhile(const ControlTable &table, const std::vector<int> &fields,
+                                       const std::function<std::optional<std::int64_t>(int field)> &known,
+                                       UsedEntries used);
 
 } // namespace dynascope

@@ -10,18 +10,11 @@
 namespace dynascope {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto LookAfter = 300ms; ///< whoever drags ten fields in sets the entries once
+constexpr std::chrono::milliseconds LookAfter{300}; ///< whoever drags ten fields in sets the entries once
 
 const Field &fieldAt(const Device &device, int index)
 {
     return device.table().fields()[static_cast<std::size_t>(index)];
-}
-
-bool isEntry(const Field &field)
-{
-    return indirectAddressNumber(field) > 0 && field.isWritable() && field.area == Area::Ram;
 }
 
 bool holdsAll(const Device &device, const IndirectPacking &packing)
@@ -46,7 +39,7 @@ IndirectReads::IndirectReads(Session &session, Monitor &monitor, SettingsCommand
     , m_session(session)
     , m_monitor(monitor)
     , m_settings(settings)
-    , m_folder(folder)
+    , m_kept(session, folder)
 {
     m_lookTimer.setSingleShot(true);
     m_lookTimer.setInterval(LookAfter);
@@ -58,7 +51,7 @@ IndirectReads::IndirectReads(Session &session, Monitor &monitor, SettingsCommand
     connect(&session, &Session::lineAdded, this, &IndirectReads::follow);
     connect(&session, &Session::lineAboutToBeRemoved, this, [this](LineSession *line) {
         m_on.erase(line);
-        m_kept.erase(line); // what is not back is on disk
+        m_kept.leave(line);
     });
     connect(&session, &Session::deviceAdded, this, [this](Device *device) { onDevice(*device); });
     connect(&session, &Session::deviceAboutToBeRemoved, this, [this](Device *device) {
@@ -71,14 +64,11 @@ IndirectReads::IndirectReads(Session &session, Monitor &monitor, SettingsCommand
 
 void IndirectReads::follow(LineSession *line)
 {
-    const auto kept = IndirectFile(m_folder, line->name()).load();
-    if (!kept)
-        emit told(kept.error().text, true);
-    for (const SetEntries &set : kept.value_or(std::vector<SetEntries>()))
-        m_kept[line].push_back({set, 0});
+    if (const Result<void> left = m_kept.load(*line); !left)
+        emit told(left.error().text, true);
     connect(line, &LineSession::stateChanged, this, [this, line] { onLineState(*line); });
     connect(line, &LineSession::packingLost, this, [this](Device *device) { lost(*device); });
-    connect(line, &LineSession::deviceLocated, this, [this, line](Device *) { (void)save(*line); });
+    connect(line, &LineSession::deviceLocated, this, [this, line](Device *) { (void)m_kept.save(*line); });
     for (const auto &device : line->devices())
         onDevice(*device);
 }
@@ -101,7 +91,7 @@ void IndirectReads::onDevice(Device &device)
     });
     if (isOn(*device.line()))
         m_lookTimer.start();
-    else if (keptOf(device))
+    else if (m_kept.find(device))
         emit leftFound(device.line());
 }
 
@@ -150,10 +140,7 @@ void IndirectReads::look()
                 begin(*device);
                 continue;
             }
-            std::vector<int> packed;
-            for (const IndirectPacking::Place &place : task->second.packing.places)
-                packed.push_back(place.field);
-            if (task->second.stage == Stage::Live && packed != wantedOf(*device))
+            if (task->second.stage == Stage::Live && task->second.packing.fields() != wantedOf(*device))
                 putBack(*device, true);
             else if (task->second.stage != Stage::Live)
                 m_lookTimer.start();
@@ -168,9 +155,7 @@ std::vector<int> IndirectReads::wantedOf(const Device &device) const
     const std::set<Watch> &watches = m_monitor.watches();
     for (auto at = watches.lower_bound({device.key(), 0}); at != watches.end() && at->device == device.key(); ++at) {
         const Field &field = fieldAt(device, at->field);
-        const bool isReachable = (field.area == Area::Ram || field.area == Area::Hybrid)
-            && field.access != Access::Unknown && indirectDataNumber(field) == 0 && indirectAddressNumber(field) == 0;
-        if (isReachable && m_monitor.rate(*at) <= 0)
+        if (mayBePointedAt(field) && m_monitor.rate(*at) <= 0)
             fields.push_back(at->field);
     }
     return fields;
@@ -183,16 +168,8 @@ Result<IndirectPacking> IndirectReads::plan(const Device &device, bool unreadIsF
         const std::optional<std::int64_t> raw = device.value(index).raw;
         return raw || !unreadIsFresh ? raw : fieldAt(device, index).initial;
     };
-    const auto isLasting = [](const Field &field) { return indirectAddressNumber(field) > 0 && !isEntry(field); };
-    if (std::ranges::any_of(device.table().fields(), isLasting))
-        return failure(ErrorKind::NotSupported, tr("its Indirect Addresses are in EEPROM"));
     const UsedEntries used = on == m_on.end() ? UsedEntries::Refuse : on->second;
-    auto packing = packIndirect(device.table(), wantedOf(device), known, used, PackingMark::Last);
-    if (!packing)
-        return packing;
-    if (packing->bytesSpared <= 1)
-        return failure(ErrorKind::NotSupported, tr("what is plotted at full rate stands side by side"));
-    return packing;
+    return packWorthwhile(device.table(), wantedOf(device), known, used);
 }
 
 IndirectReads::Forecast IndirectReads::forecast(const LineSession &line) const
@@ -223,15 +200,14 @@ void IndirectReads::begin(Device &device)
 {
     if (!isPresent(device) || m_refused.contains(device.key()))
         return;
-    if (keptOf(device)) // by a program that was ended, or before the line was lost
+    if (m_kept.find(device)) // by a program that was ended, or before the line was lost
         return putBack(device, true);
-    if (wantedOf(device).size() < 2 || !plan(device, true)) {
-        const auto why = plan(device, true);
-        // That nothing is scattered, or nothing watched, is no failure.
-        if (!why && why.error().kind == ErrorKind::NotFound)
-            refuse(device, why.error().text);
+    const auto possible = plan(device, true);
+    // That nothing is scattered, or nothing watched, is no failure.
+    if (!possible && possible.error().kind == ErrorKind::NotFound && wantedOf(device).size() > 1)
+        return refuse(device, possible.error().text);
+    if (!possible || wantedOf(device).size() < 2)
         return;
-    }
     startTask(device, Stage::Reading);
     readEntries(device, {}, [this](Device &there, Task &task, const std::vector<PollValue> &, LineTime) {
         write(there, task);
@@ -248,16 +224,14 @@ void IndirectReads::write(Device &device, Task &task)
         return isProblem ? refuse(device, packing.error().text) : void();
     }
     task.packing = std::move(*packing);
-    SetEntries set{device.modelNumber(), device.id(), device.baudRate(), {}};
+    std::vector<SetEntries::Entry> entries;
     std::vector<WantedSetting> wanted;
     for (const IndirectPacking::Entry &entry : task.packing.entries) {
-        set.entries.push_back({fieldAt(device, entry.field).address, static_cast<int>(entry.before),
-                               static_cast<int>(entry.to)});
+        entries.push_back({fieldAt(device, entry.field).address, static_cast<int>(entry.before),
+                           static_cast<int>(entry.to)});
         wanted.push_back({entry.field, entry.to});
     }
-    m_kept[device.line()].push_back({std::move(set), device.key()});
-    if (const Result<void> kept = save(*device.line()); !kept) {
-        m_kept[device.line()].pop_back();
+    if (const Result<void> kept = m_kept.keep(device, std::move(entries)); !kept) {
         m_tasks.erase(device.key());
         return refuse(device, kept.error().text);
     }
@@ -321,11 +295,11 @@ void IndirectReads::putBack(Device &device, bool begins)
 /// What somebody else has set since stays.
 void IndirectReads::writeBack(Device &device, Task &task)
 {
-    const Kept *kept = keptOf(device);
+    const SetEntries *kept = m_kept.find(device);
     std::vector<WantedSetting> wanted;
-    for (const SetEntries::Entry &entry : kept ? kept->set.entries : std::vector<SetEntries::Entry>()) {
+    for (const SetEntries::Entry &entry : kept ? kept->entries : std::vector<SetEntries::Entry>()) {
         const Field *field = device.table().at(entry.address);
-        if (!field || field->address != entry.address || !isEntry(*field) || entry.before == entry.to)
+        if (!field || field->address != entry.address || !isSettableEntry(*field) || entry.before == entry.to)
             continue; // the file is not to be believed
         const int index = device.table().indexOf(field);
         const FieldValue &value = device.value(index);
@@ -346,8 +320,7 @@ void IndirectReads::finish(Device &device, bool isBack)
 {
     const auto task = m_tasks.extract(device.key());
     if (isBack) {
-        std::erase_if(m_kept[device.line()], [kept = keptOf(device)](const Kept &each) { return &each == kept; });
-        (void)save(*device.line());
+        m_kept.drop(device);
     } else {
         refuse(device, tr("what its Indirect Addresses held could not be put back yet"));
     }
@@ -361,7 +334,7 @@ void IndirectReads::readEntries(Device &device, std::vector<Span> more,
                                 std::function<void(Device &, Task &, const std::vector<PollValue> &, LineTime)> then)
 {
     using Read = std::pair<std::vector<PollValue>, LineTime>;
-    ReadSpansPlan plan{placeOf(device), spansOf(device, isEntry)};
+    ReadSpansPlan plan{placeOf(device), spansOf(device, isSettableEntry)};
     plan.spans.insert(plan.spans.end(), more.begin(), more.end());
     // No write comes in between: one that is asked for meanwhile is still pending when this is looked at.
     device.line()->bus().run<Read>(
@@ -400,45 +373,11 @@ IndirectReads::Task *IndirectReads::taskOf(DeviceKey device, int number)
     return at == m_tasks.end() || at->second.number != number ? nullptr : &at->second;
 }
 
-IndirectReads::Kept *IndirectReads::keptOf(const Device &device)
-{
-    return const_cast<Kept *>(std::as_const(*this).keptOf(device));
-}
-
-const IndirectReads::Kept *IndirectReads::keptOf(const Device &device) const
-{
-    const auto line = m_kept.find(device.line());
-    if (line == m_kept.end())
-        return nullptr;
-    const auto at = std::ranges::find_if(line->second, [&device](const Kept &kept) {
-        return kept.device == device.key()
-            || (kept.device == 0 && kept.set.modelNumber == device.modelNumber() && kept.set.id == device.id()
-                && kept.set.baudRate == device.baudRate());
-    });
-    return at == line->second.end() ? nullptr : &*at;
-}
-
-Result<void> IndirectReads::save(const LineSession &line)
-{
-    const auto here = m_kept.find(&line);
-    if (here == m_kept.end())
-        return {};
-    std::vector<SetEntries> all;
-    for (Kept &kept : here->second) {
-        if (const Device *device = kept.device ? m_session.device(kept.device) : nullptr) {
-            kept.set.id = device->id();
-            kept.set.baudRate = device->baudRate();
-        }
-        all.push_back(kept.set);
-    }
-    return IndirectFile(m_folder, line.name()).save(all);
-}
-
 std::vector<Device *> IndirectReads::left(const LineSession &line) const
 {
     std::vector<Device *> devices;
     for (const auto &device : line.devices()) {
-        if (keptOf(*device) && !m_tasks.contains(device->key()))
+        if (m_kept.find(*device) && !m_tasks.contains(device->key()))
             devices.push_back(device.get());
     }
     return devices;
@@ -454,8 +393,7 @@ void IndirectReads::putBackLeft(LineSession &line)
 
 void IndirectReads::forgetLeft(const LineSession &line)
 {
-    std::erase_if(m_kept[&line], [this](const Kept &kept) { return !m_tasks.contains(kept.device); });
-    (void)save(line);
+    m_kept.dropAllBut(line, [this](DeviceKey device) { return m_tasks.contains(device); });
 }
 
 } // namespace dynascope

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/bus/ratelimit.h"
-#include "core/session/indirectfile.h"
+#include "core/session/indirectkept.h"
 #include "core/session/indirectpacking.h"
 #include "core/session/monitor.h"
 #include "core/session/settingscommands.h"
@@ -55,10 +55,6 @@ private:
         bool isAbandoned = false; ///< put back once it can be
         bool begins = false;      ///< after it was put back
     };
-    struct Kept {
-        SetEntries set;
-        DeviceKey device = 0; ///< of this run; 0: left by another
-    };
 
     void follow(LineSession *line);
     void onLineState(LineSession &line);
@@ -78,16 +74,12 @@ private:
                      std::function<void(Device &, Task &, const std::vector<PollValue> &, LineTime)> then);
     Task &startTask(Device &device, Stage stage);
     Task *taskOf(DeviceKey device, int number);
-    Kept *keptOf(const Device &device);
-    const Kept *keptOf(const Device &device) const;
-    Result<void> save(const LineSession &line);
 
     Session &m_session;
     Monitor &m_monitor;
     SettingsCommands &m_settings;
-    QString m_folder;
     std::map<const LineSession *, UsedEntries> m_on;
-    std::map<const LineSession *, std::vector<Kept>> m_kept;
+    IndirectKept m_kept;
     std::map<DeviceKey, Task> m_tasks;
     std::set<DeviceKey> m_refused; ///< not again before a person wants it anew
     int m_tasksSoFar = 0;

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/linesession.h"
 
-#include "core/bus/cyclelimit.h"
 #include "core/table/catalog.h"
-
-#include <QPromise>
-#include <QThreadPool>
 
 #include <algorithm>
 #include <chrono>
@@ -39,7 +35,7 @@ LineSession::LineSession(LineFactory &factory, const QString &name, int baudRate
     m_frameTimer.setSingleShot(true);
     m_frameTimer.setInterval(FrameInterval);
     connect(&m_frameTimer, &QTimer::timeout, this, &LineSession::takeBatches);
-    connect(&m_foreseeing, &QFutureWatcherBase::finished, this, &LineSession::takePrediction);
+    connect(&m_foresight, &PollForesight::changed, this, &LineSession::rateChanged);
     startThread(name, baudRate);
 }
 
@@ -86,9 +82,7 @@ void LineSession::onThreadState()
     if (state() != BusThread::State::Open) {
         takeBatches(); // from before
         m_cycleRate = 0;
-        m_possibleRate = 0;
-        m_prediction = {};
-        m_limits.clear();
+        m_foresight.clear();
         m_busLoad = 0;
         for (const auto &device : m_devices)
             device->setAllStale();
@@ -308,48 +302,11 @@ PolledLine LineSession::polled() const
     return line;
 }
 
-/// Planning takes its time, 50 ms for thirty servos: only where something is other than it was, and elsewhere.
-void LineSession::predict()
-{
-    if (m_foreseeing.isRunning() || state() != BusThread::State::Open)
-        return; // the next second looks again
-    PolledLine line = polled();
-    const bool isKnown = line.isLike(m_predicted) && m_prediction.shares.sum() > 0;
-    if (isKnown && (!m_limitsWanted || !m_limits.empty()))
-        return;
-    m_predicted = line;
-    const auto promise = std::make_shared<QPromise<Foreseen>>();
-    promise->start();
-    m_foreseeing.setFuture(promise->future());
-    QThreadPool::globalInstance()->start([promise, line = std::move(line), withLimits = m_limitsWanted] {
-        Foreseen seen;
-        seen.prediction = predictPoll(line.plan, line.baudRate, line.delays, line.silent);
-        seen.possibleRate = possibleCycleRate(line.plan, line.baudRate);
-        if (withLimits)
-            seen.limits = limitsOf(line);
-        promise->addResult(std::move(seen));
-        promise->finish();
-    });
-}
-
-void LineSession::takePrediction()
-{
-    if (state() != BusThread::State::Open)
-        return;
-    Foreseen seen = m_foreseeing.result();
-    m_prediction = seen.prediction;
-    m_possibleRate = seen.possibleRate;
-    m_limits = std::move(seen.limits);
-    m_limitsWanted = false; // whoever still looks asks again
-    emit rateChanged();
-}
-
 const std::vector<RateLimit> &LineSession::limits()
 {
-    m_limitsWanted = true;
-    if (m_limits.empty())
-        predict();
-    return m_limits;
+    if (state() == BusThread::State::Open)
+        m_foresight.lookForLimits(polled());
+    return m_foresight.limits();
 }
 
 void LineSession::lowerLatency(QObject *context, std::function<void(const Result<void> &)> done)
@@ -370,7 +327,7 @@ void LineSession::measureRates()
     const LineTime busy = m_thread->statistics().busy;
     m_busLoad = std::clamp(std::chrono::duration<double>(busy - m_busyAtMeasure).count() / seconds, 0.0, 1.0);
     m_cycleRate = m_fullRateCycles / seconds;
-    predict();
+    m_foresight.look(polled());
     m_busyAtMeasure = busy;
     m_fullRateCycles = 0;
     m_sinceMeasured.restart();

@@ -2,13 +2,12 @@
 #pragma once
 
 #include "core/bus/busthread.h"
-#include "core/bus/ratelimit.h"
 #include "core/session/devicekeys.h"
 #include "core/session/linehealth.h"
 #include "core/session/packedreads.h"
+#include "core/session/pollforesight.h"
 
 #include <QElapsedTimer>
-#include <QFutureWatcher>
 #include <QTimer>
 
 #include <map>
@@ -58,10 +57,9 @@ public:
 
     /// Full-rate cycles a second over the last second; 0 while nothing is watched at full rate.
     double cycleRate() const { return m_cycleRate; }
-    /// What the wire would allow for the same; see possibleCycleRate().
-    double possibleRate() const { return m_possibleRate; }
+    double possibleRate() const { return m_foresight.possibleRate(); } ///< what the wire would allow for the same
     /// What polling is taken to be like, with what adapter and host were seen to add.
-    const PollPrediction &prediction() const { return m_prediction; }
+    const PollPrediction &prediction() const { return m_foresight.prediction(); }
     const PollPlan &pollPlan() const { return m_plan; }
     /// See limitsOf(). Empty until they are looked for, which asking begins; rateChanged() tells.
     const std::vector<RateLimit> &limits();
@@ -96,8 +94,6 @@ private:
     bool isPresent(const Device &device) const;
     void countFailure(Device &device, const PollValue &value);
     void measureRates();
-    void predict();
-    void takePrediction();
     void park(Device &device);
     void countAnew(const Device &device);
 
@@ -117,17 +113,7 @@ private:
     LineTime m_busyAtMeasure{};
     PollPlan m_plan;
     double m_cycleRate = 0;
-    double m_possibleRate = 0;
-    struct Foreseen {
-        PollPrediction prediction;
-        double possibleRate = 0;
-        std::vector<RateLimit> limits;
-    };
-    PolledLine m_predicted; ///< what m_prediction is of, or will be
-    QFutureWatcher<Foreseen> m_foreseeing;
-    bool m_limitsWanted = false;
-    PollPrediction m_prediction;
-    std::vector<RateLimit> m_limits; ///< empty: not looked for yet
+    PollForesight m_foresight;
     double m_busLoad = 0;
 };
 

@@ -28,6 +28,7 @@ target_sources(dynascope_core PRIVATE
     session/history.cpp session/history.h
     session/indirectfile.cpp session/indirectfile.h
     session/indirectpacking.cpp session/indirectpacking.h
+    session/indirectkept.cpp session/indirectkept.h
     session/indirectreads.cpp session/indirectreads.h
     session/history/bits.h
     session/history/extremes.cpp session/history/extremes.h
@@ -55,6 +56,7 @@ target_sources(dynascope_core PRIVATE
     session/neighbours.cpp session/neighbours.h
     session/packedreads.cpp session/packedreads.h
     session/placecommands.cpp
+    session/pollforesight.cpp session/pollforesight.h
     session/procedures/atbaud.h
     session/procedures/changeplace.cpp
     session/procedures/movedevices.cpp session/procedures/movedevices.h
