@@ -20,6 +20,7 @@ constexpr LineTime WireFree = 500us;
 constexpr LineTime WireFreeLimit = 2ms;
 constexpr LineTime Quiet = 2ms;
 constexpr LineTime QuietLimit = 20ms;
+constexpr LineTime SecondLook = 50ms; ///< after who did not answer STOP
 
 Result<void> sendAll(Bus &bus, const std::vector<Bytes> &packets)
 {
@@ -149,6 +150,15 @@ std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int wor
     std::vector<StopOutcome> outcomes;
     for (const StopTarget &target : targets) {
         outcomes.push_back(verifyOne(bus, target, target.baudRate != workingBaud));
+        if (bus.isStopped() || bus.isCancelled())
+            return {};
+    }
+    // A host or an adapter that was busy for a moment makes nobody unconfirmed.
+    for (std::size_t i = 0; i < targets.size() && targets[i].baudRate == workingBaud; ++i) {
+        if (outcomes[i].off)
+            continue;
+        (void)bus.wait(SecondLook);
+        outcomes[i] = verifyOne(bus, targets[i], false);
         if (bus.isStopped() || bus.isCancelled())
             return {};
     }

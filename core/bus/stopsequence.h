@@ -34,8 +34,9 @@ private:
 Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
 /// Asks each device at its baud rate which model it is, reads its Torque Enable back, and writes once more where that
-/// still says 1. Another model there is not written to, and confirms nothing. Ends early, with nothing, where STOP is
-/// pressed again or the line is closed. The line is left at `workingBaud`.
+/// still says 1. Who is then not confirmed at `workingBaud` is asked a second time, a moment later. Another model there is
+/// not written to, and confirms nothing. Ends early, with nothing, where STOP is pressed again or the line is closed. The
+/// line is left at `workingBaud`.
 std::vector<StopOutcome> verifyTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud);
 
 } // namespace dynascope

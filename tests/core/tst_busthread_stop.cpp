@@ -163,31 +163,38 @@ private slots:
     {
         QTest::addColumn<QString>("servos"); ///< on the wire, all under torque
         QTest::addColumn<StopTarget>("target");
+        QTest::addColumn<int>("lost"); ///< so many of its first answers
         QTest::addColumn<QString>("outcome");
         QTest::addColumn<bool>("writtenTo"); ///< the first servo's torque is off in the end
         constexpr std::uint16_t XM430 = 1020;
         constexpr std::uint16_t XL330 = 1200;
-        QTest::newRow("there") << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 1'000'000, 64, XM430}
+        QTest::newRow("there") << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 1'000'000, 64, XM430} << 0
                                << QStringLiteral("off") << true;
-        QTest::newRow("parked") << QStringLiteral("XM430-W350@57600:1") << StopTarget{7, 1, 57600, 64, XM430}
+        QTest::newRow("there, with a host that was busy") << QStringLiteral("XM430-W350@1000000:1")
+                                                          << StopTarget{7, 1, 1'000'000, 64, XM430} << 3
+                                                          << QStringLiteral("off") << true;
+        QTest::newRow("parked") << QStringLiteral("XM430-W350@57600:1") << StopTarget{7, 1, 57600, 64, XM430} << 0
                                 << QStringLiteral("off") << true;
         QTest::newRow("gone, its ID taken at the line's rate")
-            << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 57600, 64, XL330}
+            << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 57600, 64, XL330} << 0
             << QStringLiteral("device 1 did not answer") << false;
         QTest::newRow("gone, a servo like it at the line's rate")
-            << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 57600, 64, XM430}
+            << QStringLiteral("XM430-W350@1000000:1") << StopTarget{7, 1, 57600, 64, XM430} << 0
             << QStringLiteral("device 1 did not answer") << false;
         QTest::newRow("another one in its place") // at 146 it keeps a temperature
-            << QStringLiteral("XM430-W350@57600:1") << StopTarget{7, 1, 57600, 146, XL330}
+            << QStringLiteral("XM430-W350@57600:1") << StopTarget{7, 1, 57600, 146, XL330} << 0
             << QStringLiteral("device 1 answers as model number 1020, not 1200") << false;
     }
     void confirmsTheDeviceItselfOnly()
     {
         QFETCH(QString, servos);
         QFETCH(StopTarget, target);
+        QFETCH(int, lost);
         VirtualBus wire(m_catalog, servos, 1'000'000);
         sim::Servo &servo = *wire.simulated.servos().front();
         servo.write(u"Torque Enable", 1);
+        if (lost > 0)
+            wire.simulated.setFaults({.replies = {{.kind = sim::ReplyFault::Kind::Lost, .times = lost}}});
         const StopPlan plan({target});
         QVERIFY(sendTorqueOff(*wire.bus, plan, 1'000'000));
         const std::vector<StopOutcome> outcomes = verifyTorqueOff(*wire.bus, plan, 1'000'000);
