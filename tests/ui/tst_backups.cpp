@@ -98,6 +98,67 @@ private slots:
         QCOMPARE(m_device->raw(u"LED"), 1);
     }
 
+    void twoFilesBesideEachOther()
+    {
+        const auto saveAs = [this](const QString &path) {
+            trigger("backupAction");
+            QVERIFY(giveName(u"saveDialog"_s, path));
+            QTRY_VERIFY(QFile::exists(path));
+        };
+        const QString before = m_folder->filePath(u"before.yaml"_s), after = m_folder->filePath(u"after.yaml"_s);
+        saveAs(before);
+        QVERIFY(write(u"Position P Gain", 700));
+        saveAs(after);
+        m_actions->setDevice(nullptr); // nothing is connected or selected
+        trigger("compareAction");
+        QDialog *compare = dialog("compareDialog");
+        QVERIFY(compare);
+        auto *of = compare->findChild<QComboBox *>(u"compareOf"_s), *with = compare->findChild<QComboBox *>(u"compareWith"_s);
+        auto *summary = compare->findChild<QLabel *>(u"compareSummary"_s);
+        auto *view = compare->findChild<QTreeView *>(u"compareView"_s);
+        QCOMPARE(compare->focusWidget(), of);
+        QTest::keyClick(of, Qt::Key_Down);
+        QVERIFY(giveName(u"openDialog"_s, before));
+        QTRY_COMPARE(of->currentText(), u"before.yaml"_s);
+        QCOMPARE(summary->text(), u"Choose two: devices, or backups' files."_s);
+        QTest::keyClick(with, Qt::Key_Down);
+        QVERIFY(giveName(u"openDialog"_s, after));
+        QTRY_COMPARE(namesOf(*view), QStringList{u"Position P Gain"_s});
+        const auto text = [view](CompareColumn column) {
+            return view->model()->index(0, static_cast<int>(column)).data().toString();
+        };
+        QCOMPARE(text(CompareColumn::Here), u"800"_s);
+        QCOMPARE(text(CompareColumn::There), u"700"_s);
+        view->selectAll();
+        auto *restore = compare->findChild<QPushButton *>(u"restoreSelectedButton"_s);
+        QVERIFY(!restore->isEnabled());
+        QCOMPARE(restore->toolTip(), u"Only a device can be restored to; choose one under Here"_s);
+
+        // What is no backup is said, and chosen is nothing.
+        const QString other = m_folder->filePath(u"other.yaml"_s);
+        QFile file(other);
+        QVERIFY(file.open(QIODevice::WriteOnly) && file.write("joints: []\n") > 0);
+        file.close();
+        QTest::keyClick(with, Qt::Key_Home);
+        QTest::keyClick(with, Qt::Key_Down);
+        QVERIFY(giveName(u"openDialog"_s, other));
+        QTRY_COMPARE(with->currentIndex(), 0);
+        QVERIFY2(summary->text().contains(u"other.yaml"), qPrintable(summary->text()));
+        QCOMPARE(view->model()->rowCount(), 0);
+    }
+
+    void aDeviceThatGoesIsSaid()
+    {
+        trigger("compareAction");
+        QDialog *compare = dialog("compareDialog");
+        QVERIFY(compare);
+        QCOMPARE(compare->findChild<QComboBox *>(u"compareOf"_s)->currentIndex() > 1, true);
+        m_bench->session.lines().front()->forget(m_device->key());
+        m_device = nullptr;
+        QCOMPARE(compare->findChild<QComboBox *>(u"compareOf"_s)->currentIndex(), 0);
+        QCOMPARE(compare->findChild<QLabel *>(u"compareSummary"_s)->text(), u"That device is gone."_s);
+    }
+
     void restoresAFile()
     {
         const QString path = m_folder->filePath(u"arm.yaml"_s);

@@ -33,8 +33,9 @@ BackupActions::BackupActions(const Workbench &workbench, QWidget *window)
     , m_restore(add("restore", "folder", tr("Restore from file…"),
                     tr("Put registers back to what a backup holds, after a look at what would be written"),
                     &BackupActions::restoreFromFile))
-    , m_compare(add("compare", "search", tr("Compare with…"),
-                    tr("This device beside a backup's file or another device"), &BackupActions::compare))
+    , m_compare(add("compare", "search", tr("Compare…"),
+                    tr("Two devices or backups' files beside each other, register by register"),
+                    &BackupActions::compare))
     , m_store(add("inServoBackup", "save", tr("Back up into the servo…"),
                   tr("Control Table Backup: the device keeps a backup of its own"), &BackupActions::storeInServo))
     , m_recall(add("inServoRestore", "refresh", tr("Restore from the servo's backup…"),
@@ -73,7 +74,6 @@ void BackupActions::setDevice(Device *device)
     m_save->setText(tr("Back up to file…"));
     m_device = device ? std::optional(device->key()) : std::nullopt;
     m_save->setEnabled(device);
-    m_compare->setEnabled(device);
     m_restore->setEnabled(device && device->isKnownModel());
     const bool hasOwn = device && device->table().hasBackup(device->firmware());
     const QString why =
@@ -192,9 +192,9 @@ void BackupActions::compare()
 {
     Device *one = device();
     const QString subject = one ? QString::number(one->key()) : QString();
-    if (!one || raiseOpen(*m_window, QStringLiteral("compareDialog"), subject))
+    if (raiseOpen(*m_window, QStringLiteral("compareDialog"), subject))
         return;
-    auto *dialog = new CompareDialog(*one, m_workbench, m_commands, m_window);
+    auto *dialog = new CompareDialog(one, m_workbench, m_commands, m_window);
     connect(dialog, &CompareDialog::restoreRequested, this,
             [this](DeviceKey key, const Backup &from, const QStringList &only) {
                 if (Device *present = m_workbench.session.device(key))

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "ui/backup/comparedialog.h"
 
-#include "core/session/session.h"
 #include "ui/backup/comparemodel.h"
-#include "ui/common/filedialogs.h"
 #include "ui/common/texts.h"
 
 #include <QCheckBox>
-#include <QComboBox>
 #include <QDialogButtonBox>
 #include <QFileInfo>
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -22,20 +19,19 @@
 
 namespace dynascope {
 
-CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupCommands &commands, QWidget *window)
+CompareDialog::CompareDialog(Device *device, const Workbench &workbench, BackupCommands &commands, QWidget *window)
     : QDialog(window)
-    , m_workbench(workbench)
-    , m_commands(commands)
-    , m_device(&device)
     , m_model(new CompareModel(this))
     , m_view(new QTreeView(this))
-    , m_with(new QComboBox(this))
+    , m_of(new CompareSource(workbench, commands, this))
+    , m_with(new CompareSource(workbench, commands, this))
     , m_onlyDifferences(new QCheckBox(tr("&Only differences"), this))
     , m_summary(new QLabel(this))
     , m_restore(new QPushButton(tr("&Restore selected…"), this))
 {
     setObjectName(QStringLiteral("compareDialog"));
-    setWindowTitle(tr("Compare %1").arg(device.displayName()));
+    setWindowTitle(device ? tr("Compare %1").arg(device->displayName()) : tr("Compare"));
+    m_of->setObjectName(QStringLiteral("compareOf"));
     m_with->setObjectName(QStringLiteral("compareWith"));
     m_onlyDifferences->setObjectName(QStringLiteral("onlyDifferences"));
     m_onlyDifferences->setChecked(true);
@@ -50,13 +46,19 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
     filter->setPlaceholderText(tr("Filter registers"));
     filter->setAccessibleName(filter->placeholderText());
     filter->setClearButtonEnabled(true);
-    auto *withLabel = new QLabel(tr("&With:"), this);
+    auto *ofLabel = new QLabel(tr("&Here:"), this);
+    ofLabel->setBuddy(m_of);
+    auto *withLabel = new QLabel(tr("&There:"), this);
     withLabel->setBuddy(m_with);
-    auto *top = new QHBoxLayout;
-    top->addWidget(withLabel);
-    top->addWidget(m_with, 1);
-    top->addWidget(filter, 1);
-    top->addWidget(m_onlyDifferences);
+    auto *top = new QGridLayout;
+    top->addWidget(ofLabel, 0, 0);
+    top->addWidget(m_of, 0, 1);
+    top->addWidget(withLabel, 0, 2);
+    top->addWidget(m_with, 0, 3);
+    top->addWidget(filter, 1, 0, 1, 3);
+    top->addWidget(m_onlyDifferences, 1, 3);
+    top->setColumnStretch(1, 1);
+    top->setColumnStretch(3, 1);
     auto *buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
     buttons->addButton(m_restore, QDialogButtonBox::ActionRole);
     auto *layout = new QVBoxLayout(this);
@@ -75,9 +77,13 @@ CompareDialog::CompareDialog(Device &device, const Workbench &workbench, BackupC
             [this](bool only) { m_model->setShow(only ? CompareModel::Show::Differences : CompareModel::Show::All); });
     connect(m_model, &QAbstractItemModel::modelReset, this, &CompareDialog::update);
     connect(m_restore, &QPushButton::clicked, this, &CompareDialog::restoreSelected);
-    connect(&device, &QObject::destroyed, this, &QDialog::reject);
-    connect(m_with, &QComboBox::activated, this, &CompareDialog::chosen);
-    fillSources();
+    for (CompareSource *source : {m_of, m_with}) {
+        connect(source, &CompareSource::chosen, this, &CompareDialog::onChosen);
+        connect(source, &CompareSource::failed, this, &CompareDialog::onFailed);
+    }
+    if (device)
+        m_of->setDevice(*device);
+    (device ? m_with : m_of)->setFocus();
     update();
 }
 
@@ -100,77 +106,49 @@ void CompareDialog::makeView()
     connect(m_view->selectionModel(), &QItemSelectionModel::selectionChanged, this, &CompareDialog::update);
 }
 
-void CompareDialog::fillSources()
-{
-    m_with->addItem(tr("Choose…"));
-    m_with->addItem(tr("A backup's file…"));
-    for (const Device *other : m_workbench.session.devices()) {
-        if (other != m_device)
-            m_with->addItem(tr("%1, ID %2").arg(other->displayName()).arg(other->id()),
-                            QVariant::fromValue(other->key()));
-    }
-}
-
-void CompareDialog::chosen(int index)
-{
-    if (index == 1)
-        askForFile();
-    else if (index > 1)
-        compareWithDevice(m_with->itemData(index).value<DeviceKey>());
-}
-
-void CompareDialog::askForFile()
-{
-    askWhatToOpen(this, tr("Compare with"), {QStringLiteral("yaml")},
-                   [this](const QString &path) { compareWithFile(path); });
-}
-
-void CompareDialog::compareWithFile(const QString &path)
+void CompareDialog::onFailed(const QString &why)
 {
     ++m_reads;
-    setThere(loadBackup(path, m_workbench.session.catalog()));
+    m_here.reset();
+    m_there.reset();
+    m_model->setRows({});
+    say(why);
 }
 
-void CompareDialog::compareWithDevice(DeviceKey key)
+/// Both sides are read anew, so that what is shown was so at about one time.
+void CompareDialog::onChosen()
 {
-    Device *other = m_workbench.session.device(key);
-    if (!other)
-        return say(tr("That device is gone."));
     const int number = ++m_reads;
-    say(tr("%1 is being read…").arg(other->displayName()));
-    m_commands.read(*other, [here = QPointer<CompareDialog>(this), number](const Result<Backup> &there) {
-        if (here && number == here->m_reads)
-            here->setThere(there);
+    m_here.reset();
+    m_there.reset();
+    if (!m_of->isChosen() || !m_with->isChosen())
+        return m_model->setRows({});
+    say(tr("Being read…"));
+    m_of->read([here = QPointer<CompareDialog>(this), number](const Result<Backup> &backup) {
+        if (!here || number != here->m_reads)
+            return;
+        if (!backup)
+            return here->onFailed(backup.error().text);
+        here->m_here = *backup;
+        here->readThere(number);
     });
 }
 
-void CompareDialog::setThere(const Result<Backup> &there)
+void CompareDialog::readThere(int number)
 {
-    if (!there) {
-        m_there.reset();
-        m_model->setRows({});
-        return say(there.error().text);
-    }
-    m_there = *there;
-    readHere();
-}
-
-void CompareDialog::readHere()
-{
-    if (!m_device)
-        return;
-    say(tr("%1 is being read…").arg(m_device->displayName()));
-    m_commands.read(*m_device, [here = QPointer<CompareDialog>(this), number = m_reads](const Result<Backup> &now) {
+    if (!m_with->isChosen()) // it went meanwhile
+        return onFailed(tr("That device is gone."));
+    m_with->read([here = QPointer<CompareDialog>(this), number](const Result<Backup> &backup) {
         if (!here || number != here->m_reads)
             return;
-        if (!now)
-            return here->say(now.error().text);
-        here->m_here = *now;
-        const Backup &there = *here->m_there;
-        here->m_model->setTitles(tr("Here: %1").arg(now->name()),
-                                 there.file.isEmpty() ? tr("There: %1").arg(there.name())
-                                                      : tr("There: %1").arg(QFileInfo(there.file).fileName()));
-        here->m_model->setRows(compareBackups(*now, there));
+        if (!backup)
+            return here->onFailed(backup.error().text);
+        here->m_there = *backup;
+        const auto title = [](const Backup &side) {
+            return side.file.isEmpty() ? side.name() : QFileInfo(side.file).fileName();
+        };
+        here->m_model->setTitles(tr("Here: %1").arg(title(*here->m_here)), tr("There: %1").arg(title(*backup)));
+        here->m_model->setRows(compareBackups(*here->m_here, *backup));
     });
 }
 
@@ -193,10 +171,8 @@ void CompareDialog::update()
 {
     if (!m_here || !m_there) {
         m_restore->setEnabled(false);
-        m_restore->setToolTip(tr("Choose first what to compare with"));
-        m_summary->setText(m_summary->text().isEmpty() ? tr("Choose what to compare it with: a backup's file, or another "
-                                                            "device.")
-                                                       : m_summary->text());
+        m_restore->setToolTip(tr("Choose first what to compare"));
+        m_summary->setText(tr("Choose two: devices, or backups' files."));
         return;
     }
     using State = ComparedRegister::State;
@@ -211,7 +187,8 @@ void CompareDialog::update()
                               + say(State::OtherMeaning, tr("%1 can't be compared"));
     m_summary->setText(asSentence(parts.join(tr(", "))));
     const bool isOther = m_here->modelNumber != m_there->modelNumber;
-    const QString why = isOther                     ? tr("They are of different models")
+    const QString why = !m_of->device()             ? tr("Only a device can be restored to; choose one under Here")
+                        : isOther                   ? tr("They are of different models")
                         : selectedNames().isEmpty() ? tr("Select registers first")
                                                     : QString();
     m_restore->setEnabled(why.isEmpty());
@@ -220,8 +197,8 @@ void CompareDialog::update()
 
 void CompareDialog::restoreSelected()
 {
-    if (m_device && m_there)
-        emit restoreRequested(m_device->key(), *m_there, selectedNames());
+    if (m_of->device() && m_there)
+        emit restoreRequested(m_of->device()->key(), *m_there, selectedNames());
 }
 
 } // namespace dynascope
