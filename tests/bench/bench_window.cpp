@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The whole window over pty + QSerialPort with ten servos polled at full rate for a minute: start to first painted
-// frame, from the first device's answer to its row on screen, memory, and the longest event of the GUI thread by its own CPU time. DYNASCOPE_BENCH_SECONDS shortens it.
+// frame, from the first device's answer to its row on screen, memory, and the longest event of the GUI thread by its own
+// CPU time. DYNASCOPE_BENCH_SECONDS shortens it.
 #include "app/window/workshop.h"
 #include "core/sim/servo.h"
+#include "tests/bench/measuring.h"
 #include "ui/plot/plotarea.h"
 
 #include <QApplication>
 #include <QElapsedTimer>
-#include <QFile>
 #include <QStandardPaths>
 #include <QTimer>
 #include <QTreeView>
@@ -20,70 +21,21 @@ using namespace dynascope;
 
 namespace {
 
-double threadCpuMilliseconds()
-{
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
-}
-
-double memoryMegabytes(const char *key)
-{
-    QFile status(QStringLiteral("/proc/self/status"));
-    if (!status.open(QIODevice::ReadOnly))
-        return 0;
-    for (const QByteArray &line : status.readAll().split('\n')) {
-        if (line.startsWith(key))
-            return line.simplified().split(' ').value(1).toDouble() / 1024;
-    }
-    return 0;
-}
-
-/// Measures each outermost event by the CPU time its handling takes on this thread.
-class MeasuringApplication : public QApplication
+/// Knows besides when the first device was painted.
+class WatchingApplication : public bench::MeasuringApplication
 {
 public:
-    using QApplication::QApplication;
+    using MeasuringApplication::MeasuringApplication;
 
-    bool notify(QObject *receiver, QEvent *event) override
-    {
-        if (m_depth > 0) {
-            const bool wasHandled = QApplication::notify(receiver, event);
-            if (event->type() == QEvent::Paint && firstDevice == LineTime() && showsDevice && showsDevice(receiver))
-                firstDevice = std::chrono::steady_clock::now().time_since_epoch();
-            return wasHandled;
-        }
-        ++m_depth;
-        const int type = event->type();
-        const char *name = receiver->metaObject()->className();
-        const double begin = threadCpuMilliseconds();
-        const bool handled = QApplication::notify(receiver, event);
-        const double took = threadCpuMilliseconds() - begin;
-        --m_depth;
-        if (type == QEvent::Paint && !firstPaint.isValid())
-            firstPaint.start();
-        if (measuring) {
-            ++events;
-            over4 += took > 4 ? 1 : 0;
-            over16 += took > 16 ? 1 : 0;
-            if (took > longest) {
-                longest = took;
-                longestName = QStringLiteral("event %1 of %2").arg(type).arg(QString::fromLatin1(name));
-            }
-        }
-        return handled;
-    }
-
-    bool measuring = false;
-    double longest = 0;
-    QString longestName;
-    quint64 events = 0, over4 = 0, over16 = 0;
-    QElapsedTimer firstPaint;
     std::function<bool(const QObject *)> showsDevice; ///< was it the tree that was painted, with a device in it?
     LineTime firstDevice{};
 
-private:
-    int m_depth = 0;
+protected:
+    void sawInner(QObject *receiver, QEvent *event) override
+    {
+        if (event->type() == QEvent::Paint && firstDevice == LineTime() && showsDevice && showsDevice(receiver))
+            firstDevice = std::chrono::steady_clock::now().time_since_epoch();
+    }
 };
 
 std::unique_ptr<sim::PtyServer> tenServos(const Catalog &catalog)
@@ -125,7 +77,7 @@ int main(int argc, char **argv)
     QElapsedTimer sinceStart;
     sinceStart.start();
     QStandardPaths::setTestModeEnabled(true);
-    MeasuringApplication application(argc, argv);
+    WatchingApplication application(argc, argv);
     setUpApplication(application);
     const auto catalog = Catalog::builtIn();
     if (!catalog)
@@ -164,7 +116,7 @@ int main(int argc, char **argv)
             }
             answered = firstAnswer(*server);
             application.measuring = true;
-            cpuAtStart = threadCpuMilliseconds();
+            cpuAtStart = bench::cpuMilliseconds();
             minute.start();
         }
         if (application.measuring && minute.elapsed() > 1500) {
@@ -181,8 +133,8 @@ int main(int argc, char **argv)
     });
     poll.start(50);
     QTimer::singleShot((seconds + 30) * 1000, &application, [] { qFatal("ten servos were not found in time"); });
-    MeasuringApplication::exec();
-    const double cpu = (threadCpuMilliseconds() - cpuAtStart) / (static_cast<double>(minute.elapsed()) / 100);
+    QApplication::exec();
+    const double cpu = (bench::cpuMilliseconds() - cpuAtStart) / (static_cast<double>(minute.elapsed()) / 100);
     std::printf("window, 10 servos x 3 fields at 4 Mbps, 30 traces, %d s:\n"
                 "  start to first painted frame %.0f ms (bus server included)\n"
                 "  first device on screen %.0f ms after its answer\n"
@@ -191,10 +143,10 @@ int main(int argc, char **argv)
                 "  GUI thread: %llu events, longest %.1f ms of its CPU time (%s), %llu over 4 ms, %llu over 16 ms, "
                 "%.0f %% of a core\n",
                 seconds, firstFrame, std::chrono::duration<double, std::milli>(application.firstDevice - answered).count(),
-                memoryMegabytes("VmRSS:"), memoryMegabytes("VmHWM:"),
+                bench::memoryMegabytes("VmRSS:"), bench::memoryMegabytes("VmHWM:"),
                 rateCount ? rates / rateCount : 0.0, static_cast<unsigned long long>(samples),
-                static_cast<unsigned long long>(application.events), application.longest,
-                qPrintable(application.longestName), static_cast<unsigned long long>(application.over4),
-                static_cast<unsigned long long>(application.over16), cpu);
+                static_cast<unsigned long long>(application.figures.events), application.figures.longest,
+                qPrintable(application.figures.longestName), static_cast<unsigned long long>(application.figures.over4),
+                static_cast<unsigned long long>(application.figures.over16), cpu);
     return 0;
 }
