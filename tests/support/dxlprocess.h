@@ -24,6 +24,7 @@ public:
     explicit RunningDxl(const QStringList &arguments);
     ~RunningDxl();
 
+    qint64 processId() const { return m_process.processId(); } ///< 0: it ended
     bool hasEnded();
     Outcome interrupt(); ///< as Ctrl-C does; waits for the end
     Outcome finish();    ///< waits for the end
