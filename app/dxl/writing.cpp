@@ -68,6 +68,20 @@ std::vector<const Field *> affectedBy(Device &device, const Assignment &assignme
     return {all.begin(), all.end()};
 }
 
+/// With what it replaces, and what it resets besides: noted before, should nobody live to note it behind.
+std::vector<RegisterChange> withOld(Device &device, const Assignment &assignment, RegisterChange change,
+                                    const std::vector<PollValue> &before)
+{
+    JournalEntry entry;
+    if (change.before.empty())
+        change.before = bytesIn(before, change.address, change.after.size());
+    entry.changes = {std::move(change)};
+    if (assignment.field && !before.empty())
+        addResets(entry, *device.table(), *assignment.field,
+                  [&before](const Field &other) { return bytesIn(before, other.address, other.size); });
+    return std::move(entry.changes);
+}
+
 /// ID or baud rate.
 Result<Bytes> moveNoted(const Work &work, Device &device, const Assignment &assignment)
 {
@@ -98,17 +112,12 @@ Result<Bytes> writeNoted(const Work &work, Device &device, const Assignment &ass
     if (change.before.empty())
         plan.before.push_back({device.id(), change.address, static_cast<std::uint16_t>(change.after.size())});
     DirectJob job(device.bus());
-    JournalEntry known;
-    known.changes = {change};
-    if (assignment.field && !assignment.field->resets.isEmpty()) { // noted before, should nobody live to note it behind
-        if (const auto values = readSpans(job, {plan.place, plan.before})) {
-            if (change.before.empty())
-                known.changes.front().before = bytesIn(*values, change.address, change.after.size());
-            addResets(known, *device.table(), *assignment.field,
-                      [&values](const Field &other) { return bytesIn(*values, other.address, other.size); });
-        }
+    std::vector<RegisterChange> changes{change};
+    if (assignment.field && !assignment.field->resets.isEmpty()) {
+        if (const auto values = readSpans(job, {plan.place, plan.before}))
+            changes = withOld(device, assignment, change, *values);
     }
-    JournalNote note = noteWrite(work, device, std::move(known.changes), affected);
+    JournalNote note = noteWrite(work, device, std::move(changes), affected);
     const auto written = writeField(job, plan);
     const auto before = written ? written->before : std::vector<PollValue>();
     const auto after = written ? written->after : tl::unexpected(written.error());
@@ -151,22 +160,22 @@ RegisterChange changeNow(Device &device, const Assignment &assignment)
 
 /// What is asked of one of several devices that are written to at once.
 struct Share {
-    JournalNote note;
+    JournalNote note; ///< once what it replaces has been read
     SpanData data;
+    std::vector<const Field *> affected;
     std::vector<Span> spans; ///< the register itself, then what else may change; none of a device that is mute
 };
 
-Share shareOf(const Work &work, const AssignedTo &one)
+Share shareOf(const AssignedTo &one)
 {
     Device &device = *one.device;
     const Assignment &assignment = *one.assignment;
-    const auto affected = affectedBy(device, assignment);
-    Share share{noteWrite(work, device, {changeOf(assignment)}, affected), assignment.to(device), {}};
+    Share share{{}, assignment.to(device), affectedBy(device, assignment), {}};
     device.learn(*assignment.field, assignment.raw);
     if (device.isMute())
         return share;
     share.spans.push_back({share.data.id, share.data.address, static_cast<std::uint16_t>(share.data.data.size())});
-    for (const Span &span : spansOf(*device.table(), device.id(), among(affected)))
+    for (const Span &span : spansOf(*device.table(), device.id(), among(share.affected)))
         share.spans.push_back(span);
     return share;
 }
@@ -233,10 +242,15 @@ std::vector<Result<Written>> writeTogether(const Work &work, const std::vector<A
     std::vector<Share> shares;
     std::vector<SpanData> writes;
     for (const AssignedTo &one : all) {
-        shares.push_back(shareOf(work, one));
+        shares.push_back(shareOf(one));
         writes.push_back(shares.back().data);
     }
     const auto before = readShares(work.bus, shares);
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        Device &device = *all[i].device;
+        shares[i].note = noteWrite(work, device, withOld(device, *all[i].assignment, changeOf(*all[i].assignment), before[i]),
+                                   shares[i].affected);
+    }
     if (const auto sent = writeMany(work.bus, writes); !sent) {
         for (std::size_t i = 0; i < shares.size(); ++i)
             shares[i].note.failed(sent.error(), before[i]);

@@ -244,6 +244,10 @@ void RamGuard::takeLook(DeviceKey key, const Result<std::vector<PollValue>> &val
     }
     if (guarded.marks.restarted(table, *values) == 0)
         return; // it stored them, or it never went
+    if (sign == RestartSign::FactoryReset) {
+        guarded.marks.dropLost();
+        return settle(key);
+    }
     guarded.last = sign;
     settle(key);
     emit restarted(key);

@@ -14,7 +14,7 @@ enum class RestartSign {
     Tick,         ///< Realtime Tick began anew
     Values,       ///< torque is off, and what was set is back at its initial value
     Reboot,       ///< by us
-    FactoryReset, ///< by us
+    FactoryReset, ///< by us. Nothing is offered again: factory values are what was asked for
 };
 
 /// A device that has restarted and whose lost settings nobody has set again yet.

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/session/journal/journal.h"
 #include "core/session/procedures/movefile.h"
 #include "tests/support/dxlbus.h"
 #include "tests/support/testmain.h"
 
 #include <QDir>
 
+#include <csignal>
 #include <set>
 
 using namespace Qt::StringLiterals;
@@ -62,6 +64,28 @@ private slots:
             QCOMPARE(model(bus, ends[0].toInt(), rate), u"XM430-W350"_s);
             QCOMPARE(model(bus, ends[1].toInt(), rate), u"XH430-V350"_s);
             QVERIFY(!MoveFile(MoveFile::usualFolder(), bus.path(), {}).exists());
+        }
+    }
+
+    /// What stood there is known before the packet goes out: undo has it, though nobody lived to note the end.
+    void whileItWritesToTwo()
+    {
+        DxlBus bus(u"XM430-W350@57600:1,XM430-W350@57600:2"_s);
+        bus.set(2, 57600, u"Profile Velocity", 7);
+        RunningDxl running(bus.with({u"write"_s, u"1,2"_s, u"profile_velocity=100"_s}));
+        bus.call([process = running.processId()](sim::SimulatedBus &simulated, LineTime) {
+            simulated.servos().front()->setWriteObserver(
+                [process](sim::Servo &, int, ByteView) { ::kill(static_cast<pid_t>(process), SIGKILL); });
+        });
+        QTRY_VERIFY_WITH_TIMEOUT(running.hasEnded(), 20'000);
+        QCOMPARE(bus.value(1, 57600, u"Profile Velocity"), 100);
+        const Journal journal(Journal::usualFolder());
+        QVERIFY(journal.entries().size() >= 2);
+        for (const int id : {1, 2}) {
+            const JournalEntry &entry = journal.entries()[journal.entries().size() - 3 + static_cast<std::size_t>(id)];
+            QCOMPARE(entry.device.id, id);
+            QCOMPARE(entry.state, JournalState::Begun);
+            QCOMPARE(entry.changes.front().before, (Bytes{static_cast<std::uint8_t>(id == 1 ? 0 : 7), 0, 0, 0}));
         }
     }
 

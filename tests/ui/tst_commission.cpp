@@ -104,6 +104,15 @@ private slots:
         saveLabels(world, "commissionPdf", u"labels.pdf"_s, "%PDF");
     }
 
+    void offersIdsThatAreFree()
+    {
+        World world(m_catalog, u"XM430-W350@57600:1"_s);
+        for (const int id : {1, 4, 11})
+            world.session.line().heard({static_cast<std::uint8_t>(id), id == 4 ? 57600 : 1000000, 1020, 45, false, {}});
+        CommissionSetup setup(world.session.line(), nullptr);
+        QCOMPARE(setup.findChild<QSpinBox *>(u"commissionFirstId"_s)->value(), 5); // six in a row
+    }
+
     void twoAtOnce()
     {
         World world(m_catalog, u"XM430-W350@57600:1,XM430-W350@57600:1"_s);

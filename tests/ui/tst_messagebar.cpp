@@ -74,6 +74,21 @@ private slots:
         QVERIFY(bar.isHidden());
     }
 
+    void whatWentWellPassesAWarning()
+    {
+        MessageBar bar;
+        bar.post(MessageKind::Warning, QStringLiteral("it has restarted"));
+        bar.post(MessageKind::Success, QStringLiteral("too early"));
+        QCOMPARE(bar.text(), QStringLiteral("it has restarted"));
+        QTRY_COMPARE((bar.post(MessageKind::Success, QStringLiteral("saved")), bar.text()), QStringLiteral("saved"));
+        bar.post(MessageKind::Info, QStringLiteral("by the way"));
+        QCOMPARE(bar.text(), QStringLiteral("saved"));
+        bar.dismiss(); // as its time does
+        QCOMPARE(bar.text(), QStringLiteral("it has restarted"));
+        bar.dismiss();
+        QVERIFY(bar.isHidden());
+    }
+
     void theNewestOfATopicReplacesWhatWasSaidBefore()
     {
         MessageBar bar;

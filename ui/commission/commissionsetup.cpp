@@ -38,6 +38,20 @@ QSpinBox *spin(QWidget *parent, const QString &name, const QString &accessible, 
     return box;
 }
 
+/// The first of so many IDs in a row that nobody here has; 1 where there is no such row.
+int firstFreeId(const LineSession &line, int count)
+{
+    const auto isTaken = [&line](int id) {
+        return std::ranges::any_of(line.devices(), [id](const auto &device) { return device->id() == id; });
+    };
+    int first = 1;
+    for (int id = 1; id < first + count; ++id) {
+        if (isTaken(id))
+            first = id + 1;
+    }
+    return first + count - 1 <= MaximumId ? first : 1;
+}
+
 } // namespace
 
 CommissionSetup::CommissionSetup(const LineSession &line, QWidget *parent)
@@ -85,6 +99,7 @@ void CommissionSetup::build(const LineSession &line)
     m_model->addItems(models);
     m_model->completer()->setFilterMode(Qt::MatchContains);
     m_model->completer()->setCompletionMode(QCompleter::PopupCompletion);
+    m_first->setValue(firstFreeId(line, m_count->value()));
     m_model->setCurrentText(line.devices().empty() ? QStringLiteral("XM430-W350") : line.devices().front()->model());
     m_firmware->setSpecialValueText(tr("any"));
     m_baud->setObjectName(QStringLiteral("commissionBaud"));
@@ -100,7 +115,7 @@ void CommissionSetup::build(const LineSession &line)
     m_torqueOff->setToolTip(tr("A new servo has it off; what another one carries may fall"));
     m_form->setHorizontalSpacing(16);
     m_form->setVerticalSpacing(8);
-    m_form->addRow(tr("&Make them"), m_source);
+    m_form->addRow(tr("New &servos become"), m_source);
     m_form->addRow(tr("M&odel"), m_model);
     m_form->addRow(tr("&First ID"), m_first);
     m_form->addRow(tr("&How many"), m_count);

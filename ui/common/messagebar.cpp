@@ -22,6 +22,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto ShortTime = 5s; ///< a success
+constexpr auto ReadTime = 2s;  ///< a warning that nobody is to miss
 constexpr auto LongTime = 12s; ///< something to know
 
 QString iconName(MessageKind kind)
@@ -128,11 +129,15 @@ void MessageBar::post(Message message)
     };
     if (isAbout(m_waiting))
         m_waiting.reset();
-    if (m_dismissable && m_current && message.kind < m_current->kind && !isAbout(m_current))
+    const bool isApart = m_dismissable && m_current && !isAbout(m_current);
+    const bool isWarned = isApart && m_current->kind == MessageKind::Warning;
+    // What a person has just done went well: that is said at once, for its short time, before what has been read by now.
+    const bool passes = isWarned && message.kind == MessageKind::Success && message.actionText.isEmpty()
+        && m_sinceShown.hasExpired(std::chrono::milliseconds(ReadTime).count());
+    if (isApart && message.kind < m_current->kind && !passes)
         return wait(std::move(message));
-    // Who has to dismiss a message must have seen it: it comes back after what matters more.
-    if (m_dismissable && m_current && m_current->kind == MessageKind::Warning && message.kind > m_current->kind
-        && !isAbout(m_current))
+    // Who has to dismiss a message must have seen it: it comes back.
+    if (isWarned && (passes || message.kind > m_current->kind))
         wait(std::move(*m_current));
     show(std::move(message));
 }
@@ -147,6 +152,7 @@ void MessageBar::show(Message message)
 {
     m_current = std::move(message);
     m_count = 1;
+    m_sinceShown.start();
     m_hideTimer.stop();
     if (m_dismissable && m_current->actionText.isEmpty()) {
         if (m_current->kind == MessageKind::Success)

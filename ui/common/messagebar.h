@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QElapsedTimer>
 #include <QFrame>
 #include <QTimer>
 
@@ -26,9 +27,10 @@ struct Message {
     bool staysForOther = false; ///< the second button is a look at something: the bar stays
 };
 
-/// One line over the lower edge of the work area: icon, text, perhaps one button or two. Shows the message that matters most; of those of lower
-/// rank the one that matters most waits behind it, the newest where several do alike. The same text again counts up. Success and info go by themselves. Texts
-/// may begin in lower case and end without a full stop.
+/// One line over the lower edge of the work area: icon, text, perhaps one button or two. Shows the message that matters
+/// most; of those of lower rank the one that matters most waits behind it, the newest where several do alike. A success
+/// passes a warning that has stood for a while, which comes back. The same text again counts up. Success and info go by
+/// themselves. Texts may begin in lower case and end without a full stop.
 class MessageBar : public QFrame
 {
     Q_OBJECT
@@ -65,6 +67,7 @@ private:
     QPushButton *m_other;
     QToolButton *m_close;
     QTimer m_hideTimer;
+    QElapsedTimer m_sinceShown;
     std::optional<Message> m_current;
     std::optional<Message> m_waiting;
     int m_count = 0;

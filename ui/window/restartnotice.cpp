@@ -17,7 +17,7 @@ constexpr int Named = 3; ///< devices; of more the rest is counted
 
 bool isOurs(const Restart &restart)
 {
-    return restart.sign == RestartSign::Reboot || restart.sign == RestartSign::FactoryReset;
+    return restart.sign == RestartSign::Reboot;
 }
 
 int lostOf(const std::vector<Restart> &restarts)
@@ -60,11 +60,8 @@ QString RestartNotice::textOf(const std::vector<Restart> &restarts) const
         const QString again = lost == 1 ? tr("1 register set in this session is at its initial value again.")
                                         : tr("%1 registers set in this session are at their initial values again.")
                                               .arg(lost);
-        switch (restarts.front().sign) {
-        case RestartSign::Reboot: return tr("%1 was rebooted; %2").arg(name, again);
-        case RestartSign::FactoryReset: return tr("%1 was reset; %2").arg(name, again);
-        default: break;
-        }
+        if (isOurs(restarts.front()))
+            return tr("%1 was rebooted; %2").arg(name, again);
         const QString how = restarts.front().sign == RestartSign::Tick
             ? tr("%1 has restarted (its Realtime Tick began anew).").arg(name)
             : tr("%1 has restarted (its torque is off, and what was set is gone).").arg(name);
@@ -77,12 +74,9 @@ QString RestartNotice::textOf(const std::vector<Restart> &restarts) const
         names << m_workbench.session.device(restart.device)->displayName();
     if (names.size() > Named)
         names = names.first(Named) << tr("%1 more").arg(restarts.size() - Named);
-    const bool wereReset = std::ranges::all_of(
-        restarts, [](const Restart &restart) { return restart.sign == RestartSign::FactoryReset; });
-    return (wereReset ? tr("%1 devices were reset: %2. %3 registers set in this session are at their initial values again.")
-            : allOurs ? tr("%1 devices were rebooted: %2. %3 registers set in this session are at their initial values again.")
-                      : tr("%1 devices have restarted: %2. %3 registers set in this session are back at their initial "
-                           "values."))
+    return (allOurs ? tr("%1 devices were rebooted: %2. %3 registers set in this session are at their initial values again.")
+                    : tr("%1 devices have restarted: %2. %3 registers set in this session are back at their initial "
+                         "values."))
         .arg(QString::number(restarts.size()), names.join(QStringLiteral(", ")), QString::number(lost));
 }
 
