@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/window/dialogpictures.h"
 
+#include "ui/backup/comparesource.h"
 #include "ui/backup/restoredialog.h"
 #include "ui/profile/profilefilebar.h"
 #include "ui/table/consequencesdialog.h"
@@ -48,6 +49,9 @@ std::vector<DialogPictures::One> DialogPictures::all()
             {"profile-plan", QSize(1000, 560), {clicking("applyButton"), agreeing}},
             {"commission", QSize(720, 560), {[this] { return open("commissionAction", "commissionDialog"); }}},
             {"dashboard", QSize(960, 640), {[this] { return open("dashboardAction", "dashboardDialog"); }}},
+            {"compare", QSize(880, 520), {[this] { return openCompare(); }, [this] { return m_open.data(); }}},
+            {"journal", QSize(960, 520), {[this] { return writeSomething(); }, [this] { return open("journalAction", "journalDialog"); }}},
+            {"reset", QSize(), {[this] { return open("factoryResetAction", "factoryResetDialog"); }}},
             {"restore", QSize(640, 520), {[this] { return openRestore(); }, agreeing}},
             {"consequences", QSize(), {[this] { return openConsequences(); }}}};
 }
@@ -124,6 +128,30 @@ QDialog *DialogPictures::openProfile()
     if (auto *bar = dialog ? dialog->findChild<ProfileFileBar *>() : nullptr)
         emit bar->openRequested(writeProfile());
     return dialog;
+}
+
+/// So that there is something in the journal.
+QDialog *DialogPictures::writeSomething()
+{
+    if (m_open)
+        m_open->close();
+    for (const auto &[which, name, raw] : {std::tuple(0, u"Profile Velocity", 120), std::tuple(0, u"Position P Gain", 640),
+                                           std::tuple(1, u"LED", 1)}) {
+        Device *device = joint(static_cast<std::size_t>(which));
+        const int field = device ? device->table().indexOf(name) : -1;
+        if (field >= 0)
+            m_workshop.commands().writeField(*device, field, raw);
+    }
+    return nullptr;
+}
+
+QDialog *DialogPictures::openCompare()
+{
+    QDialog *dialog = open("compareAction", "compareDialog");
+    auto *with = dialog ? dialog->findChild<CompareSource *>(QStringLiteral("compareWith")) : nullptr;
+    if (with && joint(1))
+        with->setDevice(*joint(1));
+    return nullptr; // once both are read
 }
 
 /// What the second joint holds, to be written to the first.

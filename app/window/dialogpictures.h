@@ -30,6 +30,8 @@ private:
     QDialog *openMoves();
     QDialog *agreeToTorqueOff();
     QDialog *openProfile();
+    QDialog *writeSomething();
+    QDialog *openCompare();
     QDialog *openRestore();
     QDialog *openConsequences();
     Device *joint(std::size_t which) const; ///< in the order of the list

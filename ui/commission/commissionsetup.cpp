@@ -86,7 +86,7 @@ CommissionSetup::CommissionSetup(const LineSession &line, QWidget *parent)
 void CommissionSetup::build(const LineSession &line)
 {
     m_source->setObjectName(QStringLiteral("commissionSource"));
-    m_source->setAccessibleName(tr("What is to be made of them"));
+    m_source->setAccessibleName(tr("What the new servos are to be"));
     m_source->addItems({tr("servos of one model, IDs in a row"), tr("the joints of a profile")});
     m_model->setObjectName(QStringLiteral("commissionModel"));
     m_model->setAccessibleName(tr("Model"));
@@ -115,7 +115,7 @@ void CommissionSetup::build(const LineSession &line)
     m_torqueOff->setToolTip(tr("A new servo has it off; what another one carries may fall"));
     m_form->setHorizontalSpacing(16);
     m_form->setVerticalSpacing(8);
-    m_form->addRow(tr("New &servos become"), m_source);
+    m_form->addRow(tr("W&anted"), m_source);
     m_form->addRow(tr("M&odel"), m_model);
     m_form->addRow(tr("&First ID"), m_first);
     m_form->addRow(tr("&How many"), m_count);

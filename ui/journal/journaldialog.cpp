@@ -26,6 +26,7 @@ JournalDialog::JournalDialog(const Workbench &workbench, QWidget *window)
     , m_undo(new QPushButton(tr("&Undo"), this))
     , m_redo(new QPushButton(tr("&Redo"), this))
     , m_script(new QPushButton(tr("Save as &script…"), this))
+    , m_empty(new QLabel(tr("Nothing has been written yet"), m_view->viewport()))
     , m_said(new QLabel(this))
 {
     setObjectName(QStringLiteral("journalDialog"));
@@ -48,6 +49,10 @@ JournalDialog::JournalDialog(const Workbench &workbench, QWidget *window)
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(m_undo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Undo); });
     connect(m_redo, &QPushButton::clicked, this, [this] { emit requested(selected(), Direction::Redo); });
+    m_empty->setObjectName(QStringLiteral("journalEmpty"));
+    m_empty->setEnabled(false); // as quiet as that
+    auto *middle = new QVBoxLayout(m_view->viewport());
+    middle->addWidget(m_empty, 0, Qt::AlignCenter);
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(24, 24, 24, 16);
     layout->setSpacing(12);
@@ -142,6 +147,7 @@ void JournalDialog::update()
         button.setEnabled(why.isEmpty() && !m_workbench.undo->isBusy());
         button.setToolTip(why);
     };
+    m_empty->setVisible(entries.empty());
     offer(*m_undo, Direction::Undo);
     offer(*m_redo, Direction::Redo);
     m_script->setEnabled(!entries.empty());

@@ -38,6 +38,7 @@ private:
     QPushButton *m_undo;
     QPushButton *m_redo;
     QPushButton *m_script;
+    QLabel *m_empty;
     QLabel *m_said; ///< where the script is
     std::vector<qint64> m_selected; ///< over a reset of the model
     qint64 m_current = 0;
