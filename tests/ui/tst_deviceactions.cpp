@@ -117,7 +117,7 @@ private slots:
         QCOMPARE(list->topLevelItem(1)->text(2), list->topLevelItem(1)->text(1)); // it stays where it is
         qobject_cast<QRadioButton *>(part("resetAll"))->click(); // both to ID 1
         QVERIFY(!part("acceptButton")->isEnabled());
-        QVERIFY2(note().contains(QStringLiteral("would both end at ID 1 at 57600 bps")), qPrintable(note()));
+        QVERIFY2(note().contains(QStringLiteral("would both end at ID 1 at 57\u2009600 bps")), qPrintable(note()));
         qobject_cast<QRadioButton *>(part("resetKeepId"))->click();
         QVERIFY2(note().contains(QStringLiteral("At the end the line follows to 57")), qPrintable(note()));
         QVERIFY(list->topLevelItem(1)->text(2).startsWith(QStringLiteral("ID 4 at 57")));

@@ -83,6 +83,25 @@ class TestPlainText : public QObject
     Q_OBJECT
 
 private slots:
+    void ratesAreSaidAsEverywhere_data()
+    {
+        QTest::addColumn<QString>("said");
+        QTest::newRow("1000000 bps") << "1 Mbps";
+        QTest::newRow("ID 1 at 57600 bps is taken by X, at 4500000 bps it is free")
+            << "ID 1 at 57\u2009600 bps is taken by X, at 4.5 Mbps it is free";
+        QTest::newRow("9600 bps") << "9\u2009600 bps";
+        QTest::newRow("at 57\u2009600 bps") << "at 57\u2009600 bps"; // said so already
+        QTest::newRow("bps, 100 bps, x57600 bps, 1.57600 bps, 57600 bpsx") << "";
+        QTest::newRow("57600") << "";
+    }
+
+    void ratesAreSaidAsEverywhere()
+    {
+        QFETCH(QString, said);
+        const QString text = QString::fromUtf8(QTest::currentDataTag());
+        QCOMPARE(withBaudTexts(text), said.isEmpty() ? text : said);
+    }
+
     void init()
     {
         QSettings().clear();

@@ -86,6 +86,7 @@ private slots:
                                << "359.91" << "359.91 ° (raw 4095)";
         QTest::newRow("set by another") << "Goal Velocity" << "−45.8 … 45.8 rev/min"
                                         << "−45.8 … 45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
+        QTest::newRow("baud rate") << "Baud Rate" << "0 … 7" << "0 … 7" << "1" << "57\u2009600 bps (raw 1)";
         QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "3"
                                << "Position control (raw 3)";
         QTest::newRow("bits") << "Shutdown" << "" << "" << "52"
@@ -105,6 +106,19 @@ private slots:
         QTEST(range.data(Qt::ToolTipRole).toString(), "rangeTip");
         QTEST(initial.data().toString(), "initial");
         QTEST(initial.data(Qt::ToolTipRole).toString(), "initialTip");
+    }
+
+    void aBaudRateIsSaidAsEverywhere()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        Device *device = fixture.add(1);
+        TableFixture::set(device, u"Baud Rate"_s, 3);
+        window.panel.setDevices({device});
+        QCOMPARE(window.cell(u"Baud Rate"_s, ColumnKind::Physical).data().toString(), u"1 Mbps"_s);
+        const Field &field = *device->table().find(u"Baud Rate");
+        const EnumEdit edit(field, effective(field, [](QStringView) { return std::optional<std::int64_t>(); }), 3);
+        QCOMPARE(edit.currentText(), u"3  1 Mbps"_s);
     }
 
     void noChoiceOfUnitsMovesAColumn()

@@ -212,6 +212,18 @@ private slots:
         qApp->removeTranslator(&marking);
     }
 
+    void ratesAreSaidAsEverywhere()
+    {
+        m_world->commands.changeBaud(*m_world->device(), 57600, false);
+        QTRY_VERIFY(!m_world->journal.entries().empty()
+                    && m_world->journal.entries().back().state == JournalState::Done);
+        const JournalModel model(m_world->journal, m_world->catalog);
+        const QModelIndex change = model.index(0, static_cast<int>(JournalColumn::Change));
+        QCOMPARE(change.data().toString(), u"1 Mbps → 57\u2009600 bps"_s);
+        const QString tip = change.data(Qt::ToolTipRole).toString();
+        QVERIFY2(tip.endsWith(u": 1 Mbps → 57\u2009600 bps"_s), qPrintable(tip));
+    }
+
     void aRefusalIsSaid()
     {
         m_world->write(u"Moving Threshold", 33);

@@ -2,6 +2,7 @@
 #include "ui/backup/comparemodel.h"
 
 #include "ui/common/icons.h"
+#include "ui/common/texts.h"
 
 namespace dynascope {
 namespace {
@@ -101,13 +102,13 @@ QVariant CompareModel::data(const QModelIndex &index, int role) const
     if (role == Qt::DecorationRole && column == CompareColumn::Status)
         return statusIcon(row);
     if (role == Qt::ToolTipRole)
-        return row.why.isEmpty() ? QVariant() : QVariant(row.why.toHtmlEscaped());
+        return row.why.isEmpty() ? QVariant() : QVariant(withBaudTexts(row.why).toHtmlEscaped());
     if (role != Qt::DisplayRole)
         return {};
     switch (column) {
     case CompareColumn::Name: return row.name;
-    case CompareColumn::Here: return row.here ? row.hereText : QStringLiteral("–");
-    case CompareColumn::There: return row.there ? row.thereText : QStringLiteral("–");
+    case CompareColumn::Here: return row.here ? withBaudTexts(row.hereText) : QStringLiteral("–");
+    case CompareColumn::There: return row.there ? withBaudTexts(row.thereText) : QStringLiteral("–");
     case CompareColumn::Status: return statusText(row);
     }
     return {};

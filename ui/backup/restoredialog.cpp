@@ -96,7 +96,7 @@ void RestoreDialog::show(const Result<RestorePlan> &plan)
                + linesOf(*plan, State::Left, tr("Left as it is:"));
         text += tr("%1 registers are the same already.").arg(plan->count(State::Same));
     }
-    m_list->setPlainText(text);
+    m_list->setPlainText(withBaudTexts(text));
     check();
 }
 

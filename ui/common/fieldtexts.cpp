@@ -39,7 +39,7 @@ QString meaningsText(const Field &field)
 {
     QStringList parts;
     for (const EnumValue &value : field.values)
-        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(value.text.toHtmlEscaped());
+        parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(value.value).arg(withBaudTexts(value.text).toHtmlEscaped());
     for (const EnumValue &value : field.special)
         parts << QStringLiteral("<b>%1</b>&nbsp;%2").arg(withMinus(QString::number(value.value)), value.text.toHtmlEscaped());
     for (const BitField &bits : field.bits) {
@@ -66,7 +66,7 @@ QString withUnits(const Field &field, const EffectiveField &effective, int resol
     const auto raw = [](std::int64_t value) { return QString::number(value).replace(u'-', QChar(0x2212)); };
     QString text = single ? raw(*from) : raw(*from) + QStringLiteral(" … ") + raw(*to);
     if (single && !meaning(field, *from).isEmpty())
-        return text + QStringLiteral(" (%1)").arg(meaning(field, *from));
+        return text + QStringLiteral(" (%1)").arg(withBaudTexts(meaning(field, *from)));
     if (effective.unit == Unit::None || units.raw)
         return text;
     const auto [low, high] = physicalRange(effective, resolution, *from, *to, units);

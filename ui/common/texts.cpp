@@ -6,6 +6,7 @@
 #include "core/table/units.h"
 
 #include <QCoreApplication>
+#include <QRegularExpression>
 #include <QTextDocument>
 
 #include <chrono>
@@ -37,6 +38,7 @@ QString withMinus(QString number)
 
 QString asSentence(QString text)
 {
+    text = withBaudTexts(text);
     const QString ends = QStringLiteral(".?!…");
     if (text.isEmpty())
         return text;
@@ -53,6 +55,21 @@ QString baudText(int bitsPerSecond)
     if (bitsPerSecond >= 1'000'000 && bitsPerSecond % 100'000 == 0)
         return Texts::tr("%1 Mbps").arg(bitsPerSecond / 1e6, 0, 'g', 4);
     return Texts::tr("%1 bps").arg(grouped(static_cast<quint64>(bitsPerSecond)));
+}
+
+QString withBaudTexts(const QString &text)
+{
+    static const QRegularExpression digits(QStringLiteral(R"((?<![\w.\x{2009}])([0-9]{4,8}) bps\b)"));
+    if (!text.contains(QStringLiteral(" bps")))
+        return text;
+    QString said;
+    qsizetype from = 0;
+    for (auto all = digits.globalMatch(text); all.hasNext();) {
+        const QRegularExpressionMatch match = all.next();
+        said += text.mid(from, match.capturedStart() - from) + baudText(match.captured(1).toInt());
+        from = match.capturedEnd();
+    }
+    return said + text.mid(from);
 }
 
 QString agoText(LineTime at)

@@ -12,6 +12,8 @@ QString withMinus(QString number);
 /// What was seen, as a sentence to show: a capital (not of a port's name) and a full stop.
 QString asSentence(QString text);
 QString baudText(int bitsPerSecond);    ///< "57 600 bps", "1 Mbps"
+/// A text of core, which says rates as `dxl` takes them ("1000000 bps"), with the window's words for them.
+QString withBaudTexts(const QString &text);
 QString agoText(LineTime at);           ///< "just now", "3 min ago"; since the monotonic clock's `at`
 QString portText(const QString &name);  ///< "Simulated bus" for "sim", else the name
 

@@ -3,6 +3,7 @@
 
 #include "core/session/journal/journaltexts.h"
 #include "core/session/journal/undoplan.h"
+#include "ui/common/texts.h"
 
 #include <QLocale>
 #include <QPalette>
@@ -144,7 +145,7 @@ QString JournalModel::text(const JournalEntry &entry, JournalColumn column) cons
     case JournalColumn::Device: return deviceText(entry.device);
     case JournalColumn::Register:
         return entry.kind == JournalKind::Write ? whatText(entry) : kindText(entry.kind);
-    case JournalColumn::Change: return changeText(m_catalog, entry);
+    case JournalColumn::Change: return withBaudTexts(changeText(m_catalog, entry));
     case JournalColumn::State: return stateText(entry);
     }
     return {};
@@ -161,14 +162,15 @@ QVariant JournalModel::data(const QModelIndex &index, int role) const
     if (role == Qt::TextAlignmentRole && column == JournalColumn::Number)
         return QVariant(Qt::AlignRight | Qt::AlignVCenter);
     if (role == Qt::ToolTipRole && column == JournalColumn::State && !entry.note.isEmpty())
-        return entry.note.toHtmlEscaped();
+        return withBaudTexts(entry.note).toHtmlEscaped();
     if (role == Qt::ToolTipRole && entry.kind == JournalKind::Write) {
         QStringList lines;
         for (const RegisterChange &change : entry.changes) {
-            lines << tr("%1: %2 → %3")
-                         .arg(registerText(change), valueText(m_catalog, entry.device, change, change.before),
-                              valueText(m_catalog, entry.device, change, change.after))
-                         .toHtmlEscaped();
+            const QString line =
+                tr("%1: %2 → %3")
+                    .arg(registerText(change), valueText(m_catalog, entry.device, change, change.before),
+                         valueText(m_catalog, entry.device, change, change.after));
+            lines << withBaudTexts(line).toHtmlEscaped();
         }
         return lines.join(QStringLiteral("<br>"));
     }

@@ -136,7 +136,7 @@ QString RegisterModel::toolTip(const Field &field, Column column, int index) con
     case Size: return sizeText(field);
     case AccessColumn:
         return field.needsTorqueOff() ? tr("%1, while torque is off").arg(accessText(field)) : accessText(field);
-    case Default: return field.initial ? meaning(field, *field.initial) : QString();
+    case Default: return field.initial ? withBaudTexts(meaning(field, *field.initial)) : QString();
     case Firmware: return firmwareChanges(field, *m_table, m_all).join(u'\n');
     default: return text(field, column, index);
     }

@@ -36,7 +36,7 @@ QString profileValueText(const ControlTable &table, const Field &field, const Ef
                          const UnitPreferences &units)
 {
     const QString number = QString::number(raw);
-    QString text = valueText(field, as, table.resolution(), raw, units);
+    QString text = withBaudTexts(valueText(field, as, table.resolution(), raw, units));
     if (text == number || units.raw)
         return withMinus(number);
     if (text.startsWith(u'-')) // names keep their hyphens

@@ -4,6 +4,7 @@
 #include "core/session/linesession.h"
 #include "ui/common/icons.h"
 #include "ui/common/present.h"
+#include "ui/common/texts.h"
 
 #include <QCheckBox>
 #include <QDialogButtonBox>
@@ -114,7 +115,8 @@ void ConsequencesDialog::addHeading(QVBoxLayout &layout)
     const Device &first = *m_write.devices.front();
     const ExpectedChange change{field().name, first.value(m_write.field).raw, m_write.raw};
     const QString who = names.join(QStringLiteral(", "));
-    QLabel *label = makeBold(tr("%1 – %2").arg(who, changeText(*m_table, lookupOf(first), change, m_write.units)), this);
+    const QString what = withBaudTexts(changeText(*m_table, lookupOf(first), change, m_write.units));
+    QLabel *label = makeBold(tr("%1 – %2").arg(who, what), this);
     if (m_write.devices.size() > 1)
         label->setText(tr("%1 of %2 devices: %3").arg(field().name).arg(m_write.devices.size()).arg(who));
     label->setObjectName(QStringLiteral("consequencesHeading"));
@@ -137,6 +139,7 @@ void ConsequencesDialog::addConsequences(QVBoxLayout &layout)
             for (const ExpectedChange &change :
                  one.kind == ConsequenceKind::Resets ? one.registers : std::vector<ExpectedChange>())
                 text += QStringLiteral("\n    ") + changeText(*m_table, lookupOf(device), change, m_write.units);
+            text = withBaudTexts(text);
             auto *sign = new QLabel(this);
             sign->setPixmap((one.isSerious() ? icon(QStringLiteral("warning"), IconTint::Warning)
                                              : icon(QStringLiteral("info"), IconTint::Accent))

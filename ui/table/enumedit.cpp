@@ -2,6 +2,7 @@
 #include "ui/table/enumedit.h"
 
 #include "core/table/units.h"
+#include "ui/common/texts.h"
 
 #include <QAbstractItemView>
 #include <QTimer>
@@ -18,7 +19,8 @@ EnumEdit::EnumEdit(const Field &field, const EffectiveField &effective, std::opt
     setAccessibleName(field.name);
     for (const EnumValue &value : field.values) {
         if (checkRange(field, effective, value.value))
-            addItem(QStringLiteral("%1  %2").arg(value.value).arg(value.text), static_cast<qlonglong>(value.value));
+            addItem(QStringLiteral("%1  %2").arg(value.value).arg(withBaudTexts(value.text)),
+                    static_cast<qlonglong>(value.value));
     }
     setCurrentIndex(raw ? findData(static_cast<qlonglong>(*raw)) : -1);
     connect(this, &QComboBox::activated, this, [this] { m_picked = true; });

@@ -131,7 +131,7 @@ FieldWordsModel::Words FieldWordsModel::words(const QModelIndex &index, const Fi
     if (kind == ColumnKind::Value)
         return {bare, bare, {}};
     if (const QString name = meaning(field, raw); !name.isEmpty())
-        return {name, {}, {}};
+        return {withBaudTexts(name), {}, {}};
     if (const QString name = indirectText(index, field, raw); !name.isEmpty())
         return indirectDataNumber(field) > 0 && isComparingKind(kind) ? Words{bare, bare, {}} : Words{name, {}, {}};
     if (!field.values.empty() || !field.bits.empty()) // a value the table has no name for

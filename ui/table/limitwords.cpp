@@ -105,7 +105,7 @@ QString defaultToolTip(const Field &field, const EffectiveField &effective, int 
 {
     if (!field.initial)
         return {};
-    const QString named = meaning(field, *field.initial);
+    const QString named = withBaudTexts(meaning(field, *field.initial));
     const QString whole = units.raw ? rawDefault(field)
                                     : withMinus(valueText(field, effective, resolution, *field.initial, units));
     return withRaw(named.isEmpty() ? whole : named, rawDefault(field));

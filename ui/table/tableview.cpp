@@ -101,7 +101,7 @@ void TableView::makeRoomFor(const ControlTable &table)
         const int name = fontMetrics().horizontalAdvance(whole) + 2 * indentation() + CellMargin + 4 + mark;
         needRoom(ColumnKind::Name, std::min(name, WidestName));
         for (const EnumValue &value : field.values) {
-            const int said = fontMetrics().horizontalAdvance(value.text) + 2 * CellMargin + 2;
+            const int said = fontMetrics().horizontalAdvance(withBaudTexts(value.text)) + 2 * CellMargin + 2;
             needRoom(ColumnKind::Physical, std::min(said, WidestValue));
             needRoom(ColumnKind::Device, std::min(said + ValueMark, WidestOfMany));
             needRoom(ColumnKind::All, std::min(said, WidestOfMany));
