@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/uitest.h"
 #include "tests/ui/tablewindow.h"
+#include "ui/common/theme.h"
 #include "ui/table/bitpopup.h"
+#include "ui/table/cellpainter.h"
 #include "ui/table/enumedit.h"
 #include "ui/table/limitwords.h"
 
@@ -84,8 +86,10 @@ private slots:
         QTest::addColumn<QString>("initialTip");
         QTest::newRow("angle") << "Max Position Limit" << "0.00 … 359.91 °" << "0.00 … 359.91 ° (raw 0 … 4095)"
                                << "359.91" << "359.91 ° (raw 4095)";
-        QTest::newRow("set by another") << "Goal Velocity" << "−45.8 … 45.8 rev/min"
-                                        << "−45.8 … 45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
+        QTest::newRow("set by another") << "Goal Velocity" << "±45.8 rev/min"
+                                        << "±45.8 rev/min (raw −200 … 200), set by Velocity Limit" << "" << "";
+        QTest::newRow("long") << "Homing Offset" << "±91799.91 °" << "±91799.91 ° (raw −1044479 … 1044479)" << "0.00"
+                              << "0.00 ° (raw 0)";
         QTest::newRow("baud rate") << "Baud Rate" << "0 … 7" << "0 … 7" << "1" << "57\u2009600 bps (raw 1)";
         QTest::newRow("names") << "Operating Mode" << "0 … 16" << "0 … 16" << "3"
                                << "Position control (raw 3)";
@@ -119,6 +123,23 @@ private slots:
         const Field &field = *device->table().find(u"Baud Rate");
         const EnumEdit edit(field, effective(field, [](QStringView) { return std::optional<std::int64_t>(); }), 3);
         QCOMPARE(edit.currentText(), u"3  1 Mbps"_s);
+    }
+
+    void bothEndsOfARangeAreSeen()
+    {
+        TableFixture fixture;
+        TableWindow window(fixture);
+        Device *device = fixture.add(1);
+        window.panel.setDevices({device});
+        for (const Field &field : device->table().fields()) {
+            const QModelIndex range = window.cell(field.name, ColumnKind::Range);
+            const QString text = range.data().toString();
+            const int room = window.view->visualRect(range).width() - 2 * CellMargin;
+            const int needed = QFontMetrics(numberFont(window.view->font())).horizontalAdvance(text);
+            if (range.isValid() && room > 0)
+                QVERIFY2(needed <= room,
+                         qPrintable(u"%1: %2 needs %3 of %4"_s.arg(field.name, text).arg(needed).arg(room)));
+        }
     }
 
     void noChoiceOfUnitsMovesAColumn()

@@ -57,6 +57,8 @@ QString rangeText(const Field &field, const EffectiveField &effective, int resol
     const QString unit = unitSymbol(effective, units);
     if (effective.minimum && effective.maximum) {
         const auto [low, high] = physicalRange(effective, resolution, *effective.minimum, *effective.maximum, units);
+        if (low.value < 0 && low.value == -high.value) // half as long: both ends are to be seen in a narrow column
+            return QStringLiteral("±%1 %2").arg(numberText(high), unit);
         return QStringLiteral("%1 … %2 %3").arg(numberText(low), numberText(high), unit);
     }
     const auto text = [&](const std::optional<std::int64_t> &bound, const QString &from) {
