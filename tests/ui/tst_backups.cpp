@@ -140,6 +140,9 @@ private slots:
         QVERIFY(file.open(QIODevice::WriteOnly) && file.write("joints: []\n") > 0);
         file.close();
         QTest::keyClick(with, Qt::Key_Home);
+        QCOMPARE(with->currentIndex(), 0);
+        QCOMPARE(summary->text(), u"Choose two: devices, or backups' files."_s);
+        QCOMPARE(view->model()->rowCount(), 0);
         QTest::keyClick(with, Qt::Key_Down);
         QVERIFY(giveName(u"openDialog"_s, other));
         QTRY_COMPARE(with->currentIndex(), 0);
@@ -239,8 +242,8 @@ private slots:
     {
         QVERIFY(m_actions->actions().at(3)->isEnabled());
         m_actions->setDevice(nullptr);
-        for (const QAction *one : m_actions->actions())
-            QVERIFY(!one->isEnabled());
+        for (const QAction *one : m_actions->actions()) // two files need no device
+            QCOMPARE(one->isEnabled(), one->objectName() == u"compareAction");
     }
 
 private:

@@ -37,8 +37,11 @@ void CompareSource::onActivated(int index)
     }
     if (itemData(index).typeId() == QMetaType::QString)
         return setFile(itemData(index).toString());
-    if (index <= 0)
-        return setCurrentIndex(m_shown);
+    if (index <= 0) { // given up
+        clear();
+        emit chosen();
+        return;
+    }
     Device *device = m_workbench.session.device(itemData(index).value<DeviceKey>());
     if (device)
         return setDevice(*device);

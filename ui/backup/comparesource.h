@@ -27,7 +27,7 @@ public:
     void read(BackupCommands::Done done);
 
 signals:
-    void chosen();                  ///< another one
+    void chosen();                  ///< another one, or none
     void failed(const QString &why); ///< that file can't be read, that device is gone: nothing is chosen now
 
 private:
