@@ -24,7 +24,7 @@ int defaultWidth(ColumnKind kind)
     case ColumnKind::Address: return 68;
     case ColumnKind::Value: return 70;
     case ColumnKind::Physical: return 164;
-    case ColumnKind::Device: return 132;
+    case ColumnKind::Device:
     case ColumnKind::All: return 132;
     case ColumnKind::Default: return 66;
     case ColumnKind::Range: return 152; // both fit beside the plots; what is cut off stands in the tool tip
