@@ -290,7 +290,7 @@ SettingsHooks ProfileRun::hooksFor(const JointApply &joint)
         for (const PollValue &value : *after)
             device->take(value);
     };
-    return noted(m_commands.journal(), as, joint.table, shown);
+    return notedAhead(m_commands.journal(), as, joint.table, shown);
 }
 
 JointProgress ProfileRun::jointProgress(std::size_t joint) const

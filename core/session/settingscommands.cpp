@@ -81,7 +81,7 @@ SettingsHooks SettingsCommands::hooksFor(const Device &device, JournalAuthor by)
         for (const PollValue &value : *after)
             present->take(value);
     };
-    return noted(m_commands.journal(), as, device.sharedTable(), shown);
+    return notedAhead(m_commands.journal(), as, device.sharedTable(), shown);
 }
 
 void SettingsCommands::finish(DeviceKey key, const std::vector<WantedSetting> &wanted, const SettingsPlan &plan,

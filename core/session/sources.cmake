@@ -39,6 +39,7 @@ target_sources(dynascope_core PRIVATE
     session/history/packedtimes.cpp session/history/packedtimes.h
     session/historymark.h
     session/journal/journal.cpp session/journal/journal.h
+    session/journal/journalahead.cpp session/journal/journalahead.h
     session/journal/journalentry.cpp session/journal/journalentry.h
     session/journal/journalfile.cpp session/journal/journalfile.h
     session/journal/journalnote.cpp session/journal/journalnote.h

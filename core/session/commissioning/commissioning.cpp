@@ -128,7 +128,7 @@ CommissionHooks Commissioning::hooks()
         emit changed();
     };
     hooks.ended = [this](const CommissionWrite &write, const CommissionWritten &outcome) { follow(write, outcome); };
-    return noted(m_commands.journal(), JournalAuthor::Window, m_line->name(), m_line->catalog(), std::move(hooks));
+    return notedAhead(m_commands.journal(), JournalAuthor::Window, m_line->name(), m_line->catalog(), std::move(hooks));
 }
 
 /// The session's device goes where the servo went.
@@ -223,7 +223,7 @@ void Commissioning::identify(std::size_t joint)
     found.modelNumber = static_cast<std::uint16_t>(facts.modelNumber);
     found.firmware = static_cast<std::uint8_t>(facts.firmware);
     const CommissionHooks hooks
-        = noted(m_commands.journal(), JournalAuthor::Window, m_line->name(), m_line->catalog());
+        = notedAhead(m_commands.journal(), JournalAuthor::Window, m_line->name(), m_line->catalog());
     m_lit = joint;
     m_light = m_line->bus().run<int>(
         Priority::Normal, this,

@@ -2,6 +2,19 @@
 #include "core/session/commissioning/commissionjournal.h"
 
 namespace dynascope {
+namespace {
+
+JournalEntry entryOf(JournalAuthor by, const QString &line, const Catalog &catalog, const CommissionWrite &write)
+{
+    JournalEntry entry;
+    entry.by = by;
+    entry.device = journalDevice(write.who, modelName(catalog, write.who.modelNumber), line);
+    entry.changes = {write.change};
+    entry.ahead = write.ahead;
+    return entry;
+}
+
+} // namespace
 
 CommissionHooks noted(Journal *journal, JournalAuthor by, const QString &line, const Catalog &catalog,
                       CommissionHooks others)
@@ -9,13 +22,9 @@ CommissionHooks noted(Journal *journal, JournalAuthor by, const QString &line, c
     const auto note = std::make_shared<JournalNote>(); // one write at a time
     CommissionHooks hooks = others;
     hooks.begun = [journal, by, line, &catalog, note, begun = others.begun](const CommissionWrite &write) {
-        JournalEntry entry;
-        entry.by = by;
-        entry.device = journalDevice(write.who, modelName(catalog, write.who.modelNumber), line);
-        entry.changes = {write.change};
         const ControlTablePtr table = catalog.find(write.who.modelNumber, write.who.firmware);
         const Field *field = table ? table->at(write.change.address) : nullptr;
-        *note = JournalNote(journal, std::move(entry),
+        *note = JournalNote(journal, entryOf(by, line, catalog, write),
                             field ? affectedBy(*table, *field, true) : std::vector<const Field *>());
         if (begun)
             begun(write);
@@ -33,6 +42,20 @@ CommissionHooks noted(Journal *journal, JournalAuthor by, const QString &line, c
     return hooks;
 }
 
+CommissionHooks notedAhead(Journal *journal, JournalAuthor by, const QString &line, const Catalog &catalog,
+                           CommissionHooks others)
+{
+    CommissionHooks hooks = noted(journal, by, line, catalog, std::move(others));
+    if (auto ahead = journal ? journal->ahead() : nullptr) {
+        hooks.ahead = [ahead, by, line, &catalog](const CommissionWrite &write) {
+            return ahead->append(entryOf(by, line, catalog, write));
+        };
+        // Held until the journal has heard of the last one.
+        hooks.begun = [ahead, begun = hooks.begun](const CommissionWrite &write) { begun(write); };
+    }
+    return hooks;
+}
+
 CommissionHooks posted(JobContext &context, CommissionHooks hooks)
 {
     CommissionHooks there;
@@ -44,7 +67,9 @@ CommissionHooks posted(JobContext &context, CommissionHooks hooks)
         if (found)
             context.post([found, device, joint] { found(device, joint); });
     };
-    there.begun = [&context, begun = hooks.begun](const CommissionWrite &write) {
+    there.begun = [&context, begun = hooks.begun, ahead = hooks.ahead](CommissionWrite write) {
+        if (ahead)
+            write.ahead = ahead(write);
         if (begun)
             context.post([begun, write] { begun(write); });
     };

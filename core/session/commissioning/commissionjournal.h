@@ -11,6 +11,10 @@ namespace dynascope {
 CommissionHooks noted(Journal *journal, JournalAuthor by, const QString &line, const Catalog &catalog,
                       CommissionHooks others = {});
 
+/// The same, for posted(): the bus thread notes each write itself before it goes out (JournalAhead).
+CommissionHooks notedAhead(Journal *journal, JournalAuthor by, const QString &line, const Catalog &catalog,
+                           CommissionHooks others = {});
+
 /// Hooks for the bus thread that have `hooks` called on the GUI thread, in their order, while the job's context object
 /// lives. For one run of `context`.
 CommissionHooks posted(JobContext &context, CommissionHooks hooks);

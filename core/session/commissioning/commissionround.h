@@ -42,6 +42,7 @@ struct CommissionOptions {
 struct CommissionWrite {
     Found who; ///< where it stands before the write
     RegisterChange change;
+    QString ahead = {}; ///< its key, where it was noted on the bus thread
 };
 struct CommissionWritten {
     std::optional<Error> error;
@@ -53,6 +54,7 @@ struct CommissionWritten {
 struct CommissionHooks {
     std::function<void(int baudRate)> looking;
     std::function<void(const Found &found, std::size_t joint)> found; ///< this one becomes that joint
+    std::function<QString(const CommissionWrite &write)> ahead; ///< called by posted(), before begun
     std::function<void(const CommissionWrite &write)> begun;
     std::function<void(const CommissionWrite &write, const CommissionWritten &outcome)> ended;
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <set>
 
 namespace dynascope {
 namespace {
@@ -47,7 +48,12 @@ Journal::Journal(const QString &folder, Reading reading, const JournalFile::Boun
 {
     if (!folder.isEmpty())
         m_file = std::make_unique<JournalFile>(folder, bounds);
-    if (m_file && reading == Reading::Newest)
+    if (!folder.isEmpty()) {
+        m_ahead = std::make_unique<JournalAheadFiles>(folder, m_run);
+        m_over = m_ahead->left();
+    }
+    const bool isLeft = !m_over.paths.isEmpty(); // whether it was noted may be written anywhere
+    if (m_file && reading == Reading::Newest && !isLeft)
         m_file->beginNearEnd(2 * LongestJournalLine);
     m_dragEnd.setSingleShot(true);
     m_dragEnd.setInterval(DragPause);
@@ -55,12 +61,16 @@ Journal::Journal(const QString &folder, Reading reading, const JournalFile::Boun
     m_retry.setSingleShot(true);
     connect(&m_retry, &QTimer::timeout, this, [this] { write(m_patience); });
     refresh();
+    if (isLeft)
+        write(m_patience);
 }
 
 Journal::~Journal()
 {
     flush();
-    if (!m_waiting.empty())
+    if (m_ahead)
+        m_over.paths += m_ahead->all().paths;
+    if (!m_waiting.empty() || !m_over.paths.isEmpty())
         write(LastPatience);
 }
 
@@ -197,7 +207,13 @@ void Journal::write(std::chrono::milliseconds patience)
     if (lock) {
         if (readOthers())
             emit entriesChanged();
+        m_over.paths += m_ahead->ended().paths;
+        takeIn(m_over);
         writeWaiting();
+        if (m_waiting.empty()) {
+            JournalAheadFiles::remove(m_over);
+            m_over = {};
+        }
     } else if (lock.error().kind != ErrorKind::PortBusy || patience > 0ms
                || m_waitingSince.msecsTo(m_triedAt) >= msecs(LongLocked)) {
         complain(lock.error());
@@ -206,6 +222,26 @@ void Journal::write(std::chrono::milliseconds patience)
         m_problem.clear();
     else
         m_retry.start(m_problem.isEmpty() ? SoonAgain : LaterAgain);
+}
+
+/// What was about to be written and came no further: nobody will say what became of it.
+void Journal::takeIn(const JournalAheadFiles::Over &over)
+{
+    if (over.paths.isEmpty())
+        return;
+    std::set<std::pair<QString, QString>> known;
+    for (const JournalEntry &entry : m_entries) {
+        if (!entry.ahead.isEmpty())
+            known.insert({entry.run, entry.ahead});
+    }
+    JournalAheadFiles::read(over, [&](JournalEntry entry) {
+        if (!known.insert({entry.run, entry.ahead}).second)
+            return;
+        entry.number = nextNumber();
+        m_waiting.push_back({entry.number, true});
+        place(std::move(entry));
+        emit entriesChanged();
+    });
 }
 
 void Journal::writeWaiting()
@@ -263,7 +299,7 @@ qint64 Journal::begin(JournalEntry entry)
     entry.run = m_run;
     entry.at = m_now();
     entry.state = JournalState::Begun;
-    const bool isGoal = isOneGoal(entry);
+    const bool isGoal = entry.ahead.isEmpty() && isOneGoal(entry); // each write of a job is an entry
     if (const qint64 number = isGoal ? dragOf(entry.device, entry.changes.front()) : 0; number > 0) {
         find(number)->changes.front().after = entry.changes.front().after;
         m_drags[number].isUnsaved = true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/session/journal/journalahead.h"
 #include "core/session/journal/journalentry.h"
 #include "core/session/journal/journalfile.h"
 
@@ -54,6 +55,8 @@ public:
     bool continues(const JournalDevice &device, const RegisterChange &change) const;
     /// What became of it: state, changes, movedTo and note are taken from `outcome`.
     void finish(qint64 number, const JournalEntry &outcome);
+    /// For one job of a bus thread whose writes are noted here later; what it leaves there is taken in. May be null.
+    std::shared_ptr<JournalAhead> ahead() { return m_ahead ? m_ahead->begin() : nullptr; }
     void flush(); ///< the newest values of drags, which else wait for their end
 
     void setClock(std::function<QDateTime()> now) { m_now = std::move(now); } ///< for tests
@@ -82,6 +85,7 @@ private:
     void store(JournalEntry &entry, bool isNew);
     void write(std::chrono::milliseconds patience);
     void writeWaiting();
+    void takeIn(const JournalAheadFiles::Over &over);
     void complain(const Error &error);
     bool isOpen(qint64 number) const; ///< a drag that may be continued
     /// The number of the entry that such a write continues; 0: none.
@@ -93,6 +97,8 @@ private:
     QString m_run;
     QString m_problem;
     std::unique_ptr<JournalFile> m_file; ///< nullptr: in memory only
+    std::unique_ptr<JournalAheadFiles> m_ahead;
+    JournalAheadFiles::Over m_over; ///< to be taken in, or removed once all of it is written
     std::deque<JournalEntry> m_entries;
     std::map<qint64, Drag> m_drags; ///< by the number of their entry
     QTimer m_dragEnd;

@@ -168,6 +168,7 @@ Result<void> takeWords(const QJsonObject &object, JournalEntry &entry)
         return damaged(QStringLiteral("an entry has no time"));
     entry.run = textOf(object, QLatin1String("run"));
     entry.note = textOf(object, QLatin1String("note"));
+    entry.ahead = textOf(object, QLatin1String("ahead"));
     return {};
 }
 
@@ -263,6 +264,8 @@ QByteArray toJson(const JournalEntry &entry)
         object.insert(QLatin1String("undoes"), entry.undoes);
     if (entry.redoes > 0)
         object.insert(QLatin1String("redoes"), entry.redoes);
+    if (!entry.ahead.isEmpty())
+        object.insert(QLatin1String("ahead"), entry.ahead.left(LongestText));
     return QJsonDocument(object).toJson(QJsonDocument::Compact);
 }
 

@@ -76,6 +76,7 @@ struct JournalEntry {
     std::optional<JournalPlace> movedTo; ///< where the device stands afterwards, where that is elsewhere
     QString note;                        ///< why it failed, which reset it was, a packet's bytes
     qint64 undoes = 0, redoes = 0;       ///< the entry that it takes back or carries out again; 0: none
+    QString ahead;                       ///< its key in JournalAhead; empty: it is in none
 
     friend bool operator==(const JournalEntry &, const JournalEntry &) = default;
 };

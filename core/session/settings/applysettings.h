@@ -21,10 +21,12 @@ struct SettingsWrite {
     Bytes before; ///< empty: not known
     Bytes to;
     std::vector<PollValue> around = {}; ///< what itself and what it may change hold before it, as far as that was read
+    QString ahead = {};                 ///< its key, where it was noted on the bus thread
 };
 
 /// Told of each write, on the bus thread: before its packet, and what was read before and after, itself first.
 struct SettingsHooks {
+    std::function<QString(const SettingsWrite &write)> ahead; ///< called by posted() on the bus thread, before begun
     std::function<void(const SettingsWrite &write)> begun;
     std::function<void(const SettingsWrite &write, std::span<const PollValue> before,
                        const Result<std::vector<PollValue>> &after)>

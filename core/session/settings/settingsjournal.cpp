@@ -2,21 +2,35 @@
 #include "core/session/settings/settingsjournal.h"
 
 namespace dynascope {
+namespace {
+
+const Field *fieldOf(const ControlTablePtr &table, const SettingsWrite &write)
+{
+    return table ? table->at(write.where.address) : nullptr;
+}
+
+JournalEntry entryOf(const JournalEntry &as, const ControlTablePtr &table, const SettingsWrite &write)
+{
+    JournalEntry entry = as;
+    entry.ahead = write.ahead;
+    entry.changes = {{write.name, write.where.address, write.where.isSigned, write.before, write.to, {}}};
+    const Field *field = fieldOf(table, write);
+    if (field && field->size == write.where.size) {
+        addResets(entry, *table, *field,
+                  [&write](const Field &other) { return bytesIn(write.around, other.address, other.size); });
+    }
+    return entry;
+}
+
+} // namespace
 
 SettingsHooks noted(Journal *journal, const JournalEntry &as, ControlTablePtr table, SettingsHooks others)
 {
     const auto note = std::make_shared<JournalNote>(); // one write at a time
     SettingsHooks hooks;
     hooks.begun = [journal, as, table, note, begun = others.begun](const SettingsWrite &write) {
-        JournalEntry entry = as;
-        entry.changes = {{write.name, write.where.address, write.where.isSigned, write.before, write.to, {}}};
-        const Field *field = table ? table->at(write.where.address) : nullptr;
-        if (field && field->size == write.where.size) {
-            addResets(entry, *table, *field, [&write](const Field &other) {
-                return bytesIn(write.around, other.address, other.size);
-            });
-        }
-        *note = JournalNote(journal, std::move(entry),
+        const Field *field = fieldOf(table, write);
+        *note = JournalNote(journal, entryOf(as, table, write),
                             field ? affectedBy(*table, *field, true) : std::vector<const Field *>());
         if (begun)
             begun(write);
@@ -33,10 +47,23 @@ SettingsHooks noted(Journal *journal, const JournalEntry &as, ControlTablePtr ta
     return hooks;
 }
 
+SettingsHooks notedAhead(Journal *journal, const JournalEntry &as, ControlTablePtr table, SettingsHooks others)
+{
+    SettingsHooks hooks = noted(journal, as, table, std::move(others));
+    if (auto ahead = journal ? journal->ahead() : nullptr) {
+        hooks.ahead = [ahead, as, table](const SettingsWrite &write) { return ahead->append(entryOf(as, table, write)); };
+        // Held until the journal has heard of the last one.
+        hooks.begun = [ahead, begun = hooks.begun](const SettingsWrite &write) { begun(write); };
+    }
+    return hooks;
+}
+
 SettingsHooks posted(JobContext &context, SettingsHooks hooks)
 {
     SettingsHooks there;
-    there.begun = [&context, begun = hooks.begun](const SettingsWrite &write) {
+    there.begun = [&context, begun = hooks.begun, ahead = hooks.ahead](SettingsWrite write) {
+        if (ahead)
+            write.ahead = ahead(write);
         if (begun)
             context.post([begun, write] { begun(write); });
     };

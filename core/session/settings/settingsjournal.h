@@ -10,6 +10,9 @@ namespace dynascope {
 /// journal's thread; `journal` may be null.
 SettingsHooks noted(Journal *journal, const JournalEntry &as, ControlTablePtr table, SettingsHooks others = {});
 
+/// The same, for posted(): the bus thread notes each write itself before it goes out (JournalAhead).
+SettingsHooks notedAhead(Journal *journal, const JournalEntry &as, ControlTablePtr table, SettingsHooks others = {});
+
 /// Hooks for the bus thread that have `hooks` called on the GUI thread, in their order, while the job's context object
 /// lives. For one run of `context`.
 SettingsHooks posted(JobContext &context, SettingsHooks hooks);
