@@ -248,7 +248,8 @@ std::vector<Result<Written>> writeTogether(const Work &work, const std::vector<A
     const auto before = readShares(work.bus, shares);
     for (std::size_t i = 0; i < shares.size(); ++i) {
         Device &device = *all[i].device;
-        shares[i].note = noteWrite(work, device, withOld(device, *all[i].assignment, changeOf(*all[i].assignment), before[i]),
+        const Assignment &assignment = *all[i].assignment;
+        shares[i].note = noteWrite(work, device, withOld(device, assignment, changeOf(assignment), before[i]),
                                    shares[i].affected);
     }
     if (const auto sent = writeMany(work.bus, writes); !sent) {

@@ -50,7 +50,9 @@ std::vector<DialogPictures::One> DialogPictures::all()
             {"commission", QSize(720, 560), {[this] { return open("commissionAction", "commissionDialog"); }}},
             {"dashboard", QSize(960, 640), {[this] { return open("dashboardAction", "dashboardDialog"); }}},
             {"compare", QSize(880, 520), {[this] { return openCompare(); }, [this] { return m_open.data(); }}},
-            {"journal", QSize(960, 520), {[this] { return writeSomething(); }, [this] { return open("journalAction", "journalDialog"); }}},
+            {"journal",
+             QSize(960, 520),
+             {[this] { return writeSomething(); }, [this] { return open("journalAction", "journalDialog"); }}},
             {"reset", QSize(), {[this] { return open("factoryResetAction", "factoryResetDialog"); }}},
             {"restore", QSize(640, 520), {[this] { return openRestore(); }, agreeing}},
             {"consequences", QSize(), {[this] { return openConsequences(); }}}};
@@ -135,8 +137,9 @@ QDialog *DialogPictures::writeSomething()
 {
     if (m_open)
         m_open->close();
-    for (const auto &[which, name, raw] : {std::tuple(0, u"Profile Velocity", 120), std::tuple(0, u"Position P Gain", 640),
-                                           std::tuple(1, u"LED", 1)}) {
+    const auto writes = {std::tuple(0, u"Profile Velocity", 120), std::tuple(0, u"Position P Gain", 640),
+                         std::tuple(1, u"LED", 1)};
+    for (const auto &[which, name, raw] : writes) {
         Device *device = joint(static_cast<std::size_t>(which));
         const int field = device ? device->table().indexOf(name) : -1;
         if (field >= 0)

@@ -14,6 +14,7 @@ namespace {
 
 constexpr int FirstLook = 2, SecondLook = 4;
 constexpr int UnsoundToDoubt = 2; ///< of the second look
+constexpr int MostSilent = 2;     ///< one answer may be lost, or come late from a busy host
 constexpr double ClockError = 0.03; ///< of a servo's clock
 constexpr double TickSlack = 2;     ///< ms: rounded, and a little more
 constexpr int TickPeriod = 32768;
@@ -26,7 +27,8 @@ struct Sample {
 /// What was read; nothing where it came damaged, or with something else.
 struct Look {
     std::optional<Sample> sample;
-    bool isSilent = false; ///< no Read is answered, or it is refused: tells nothing
+    bool isSilent = false;  ///< this Read wasn't answered: tells nothing
+    bool isRefused = false; ///< nor will another be
 };
 
 double milliseconds(LineTime time)
@@ -79,8 +81,8 @@ Result<Look> take(Bus &bus, std::uint8_t id, const VolatileSpan &span)
     if (reply && seen.strayPackets == 0 && seen.damagedPackets == 0 && seen.noiseBytes == 0)
         look.sample = Sample{reply->data, begin, reply->at};
     else if (!reply)
-        look.isSilent = seen.bytesReceived == 0 || reply.error().kind == ErrorKind::Refused
-            || reply.error().kind == ErrorKind::LateAnswer;
+        look.isSilent = seen.bytesReceived == 0 || reply.error().kind == ErrorKind::LateAnswer;
+    look.isRefused = !reply && reply.error().kind == ErrorKind::Refused;
     return look;
 }
 
@@ -91,6 +93,7 @@ Result<QString> compareReads(
 {
     std::optional<Sample> before;
     bool anyDamaged = false;
+    int silent = 0;
     for (const int reads : {FirstLook, SecondLook}) {
         int unsound = 0;
         for (int i = 0; i < reads; ++i) {
@@ -99,8 +102,13 @@ Result<QString> compareReads(
             Result<Look> look = take(bus, device.id, span);
             if (!look)
                 return tl::unexpected(look.error());
-            if (look->isSilent)
+            silent += look->isSilent ? 1 : 0;
+            if (look->isRefused || silent == MostSilent)
                 return QString();
+            if (look->isSilent) {
+                --i;
+                continue;
+            }
             const bool jumps = look->sample && before && !areOfOne(*before, *look->sample, span);
             unsound += !look->sample || jumps ? 1 : 0;
             anyDamaged = anyDamaged || !look->sample;

@@ -42,7 +42,8 @@ public:
     DxlBus &bus() { return m_bus; }
     QStringList arguments() const
     {
-        return m_bus.with({u"--baud"_s, u"1000000"_s, u"commission"_s, u"--profile"_s, m_profile, u"--present"_s, u"--no-led"_s});
+        return m_bus.with({u"--baud"_s, u"1000000"_s, u"commission"_s, u"--profile"_s, m_profile, u"--present"_s,
+                           u"--no-led"_s});
     }
     Outcome run() const { return test::dxl(arguments()); }
     /// Kills it as the servo hears write number `place`, before it can answer.
@@ -83,8 +84,8 @@ private:
 
 } // namespace
 
-/// `dxl commission` killed without a word at each of its writes: the servo is found, holds nothing but old or new values,
-/// and the same command once more ends as if nothing had been. (In virtual time: core_commissioning.)
+/// `dxl commission` killed without a word at each of its writes: the servo is found, holds nothing but old or new
+/// values, and the same command once more ends as if nothing had been. (In virtual time: core_commissioning.)
 class TestDxlCommissionKilled : public QObject
 {
     Q_OBJECT

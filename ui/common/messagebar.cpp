@@ -131,7 +131,7 @@ void MessageBar::post(Message message)
         m_waiting.reset();
     const bool isApart = m_dismissable && m_current && !isAbout(m_current);
     const bool isWarned = isApart && m_current->kind == MessageKind::Warning;
-    // What a person has just done went well: that is said at once, for its short time, before what has been read by now.
+    // What a person has just done went well: said at once, for its short time, before what has been read by now.
     const bool passes = isWarned && message.kind == MessageKind::Success && message.actionText.isEmpty()
         && m_sinceShown.hasExpired(std::chrono::milliseconds(ReadTime).count());
     if (isApart && message.kind < m_current->kind && !passes)

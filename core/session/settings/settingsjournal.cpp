@@ -51,7 +51,9 @@ SettingsHooks notedAhead(Journal *journal, const JournalEntry &as, ControlTableP
 {
     SettingsHooks hooks = noted(journal, as, table, std::move(others));
     if (auto ahead = journal ? journal->ahead() : nullptr) {
-        hooks.ahead = [ahead, as, table](const SettingsWrite &write) { return ahead->append(entryOf(as, table, write)); };
+        hooks.ahead = [ahead, as, table](const SettingsWrite &write) {
+            return ahead->append(entryOf(as, table, write));
+        };
         // Held until the journal has heard of the last one.
         hooks.begun = [ahead, begun = hooks.begun](const SettingsWrite &write) { begun(write); };
     }
