@@ -137,7 +137,7 @@ private slots:
         QVERIFY(m_person->click("acceptButton"));
         QTRY_COMPARE_WITH_TIMEOUT(device.baudRate(), 2000000, 5000);
         QCOMPARE(device.state(), Device::State::Parked); // the other one stays where it was
-        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("now works at 2000000")),
+        QTRY_VERIFY2(m_person->message().contains(QStringLiteral("now works at 2 Mbps")),
                      qPrintable(m_person->message()));
     }
 
