@@ -17,6 +17,7 @@ target_sources(dynascope_core PRIVATE
     bus/networkline.cpp bus/networkline.h bus/networklinefactory.h
     bus/operations.cpp bus/operations.h
     bus/outbox.cpp bus/outbox.h
+    bus/batch_values.h
     bus/poll_values.h
     bus/poller.cpp bus/poller.h bus/poller_plan.cpp
     bus/pollmeasure.cpp bus/pollmeasure.h

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/record/recorder.h"
 
+#include "core/bus/batch_values.h"
 #include "core/record/recordwriter.h"
 
 #include <QDateTime>
@@ -42,7 +43,7 @@ void Recorder::add(const Batch &batch)
     recorded.begin = batch.begin;
     recorded.replies.reserve(batch.values.size());
     for (const PollValue &value : batch.values) {
-        if (m_fields.count(value.device) != 0)
+        if (m_fields.count(value.device) != 0 && !standsInAnother(batch, value))
             recorded.replies.push_back({value.device, value.address, value.length, value.data, value.at});
     }
     if (recorded.replies.empty())

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/monitor.h"
 
+#include "core/bus/batch_values.h"
 #include "core/session/vitals.h"
 #include "core/session/watchplan.h"
 #include "core/table/units.h"
@@ -256,7 +257,7 @@ void Monitor::record(const Batch &batch)
         replanSoon();
     for (const PollValue &value : batch.values) {
         const Device *device = m_session.device(value.device);
-        if (!device)
+        if (!device || standsInAnother(batch, value))
             continue;
         const int end = value.address + static_cast<int>(value.data.size());
         for (auto at = m_watches.lower_bound({value.device, 0}); at != m_watches.end() && at->device == value.device;

@@ -131,6 +131,8 @@ public:
     void drain()
     {
         m_server->call([this](sim::SimulatedBus &bus, LineTime) {
+            if (!bus.log().empty() && bus.log().back().fromController)
+                return; // it may still be on its way; the next time takes it
             for (const sim::WireEntry &entry : bus.log())
                 m_count.add(entry);
             bus.clearLog();

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/bus/batch_values.h"
 #include "core/record/recordwriter.h"
 #include "tests/support/recordings.h"
 #include "tests/support/testmain.h"
@@ -68,6 +69,7 @@ class TestRecorder : public QObject
 private slots:
     void init() { m_folder = std::make_unique<QTemporaryDir>(); }
     void recordsAll();
+    void recordsOnceWhatOneReplyBrought();
     void isOnTheDiskWithinASecond();
     void splits_data();
     void splits();
@@ -115,6 +117,28 @@ void TestRecorder::recordsAll()
     QCOMPARE(all.size(), std::size_t(3000));
     for (int cycle = 0; cycle < 3000; ++cycle)
         QVERIFY(all[std::size_t(cycle)] == recordedBatch(Devices, cycle));
+}
+
+/// A span of the plan that lies in another is answered by the same reply, and stands in the batch once more.
+void TestRecorder::recordsOnceWhatOneReplyBrought()
+{
+    auto recorder = Recorder::start(settings(u"a.mcap"_s)).value();
+    Batch batch = polled(1);
+    PollValue part = batch.values.front();
+    QVERIFY(part.data.size() > 2);
+    part.data.resize(part.data.size() - 1);
+    PollValue later = part;
+    later.at += 1ms; // another reply: another sample
+    batch.values.insert(batch.values.begin(), part);
+    batch.values.push_back(batch.values[1]); // the same once more
+    recorder->add(batch);
+    const RecorderStatus status = recorder->wait();
+    QCOMPARE(status.samples, quint64(SamplesACycle));
+    const auto all = allBatches(*Recording::open(status.path).value());
+    QCOMPARE(all.size(), std::size_t(1));
+    QVERIFY(all.front() == recordedBatch(Devices, 1));
+    batch.values.push_back(later);
+    QVERIFY(!standsInAnother(batch, batch.values.back()));
 }
 
 void TestRecorder::isOnTheDiskWithinASecond()
