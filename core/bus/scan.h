@@ -66,8 +66,8 @@ struct BaudScan {
 Result<BaudScan> scanBaud(Bus &bus, const ScanRequest &wanted, const ScanHooks &hooks = {});
 
 /// Reads `span` of one device again and again, with `between` in between. Why it may be two of them; empty: no sign, or
-/// it answers no Read, asked twice. Two reads where nothing is wrong; six until it is called doubtful: noise damages one of them,
-/// two devices nearly all.
+/// it answers no Read, asked twice. Two reads where nothing is wrong; six until it is called doubtful: noise damages one
+/// of them, two devices nearly all.
 Result<QString> compareReads(
     Bus &bus, const Found &device, const VolatileSpan &span, const std::function<Result<void>()> &between);
 

@@ -11,7 +11,6 @@
 using namespace Qt::StringLiterals;
 using namespace dynascope;
 using dynascope::test::DxlBus;
-using dynascope::test::Outcome;
 using dynascope::test::RunningDxl;
 
 namespace {
@@ -45,7 +44,6 @@ public:
         return m_bus.with({u"--baud"_s, u"1000000"_s, u"commission"_s, u"--profile"_s, m_profile, u"--present"_s,
                            u"--no-led"_s});
     }
-    Outcome run() const { return test::dxl(arguments()); }
     /// Kills it as the servo hears write number `place`, before it can answer.
     void startAndKillAt(int place)
     {

@@ -118,38 +118,40 @@ void CompareDialog::onFailed(const QString &why)
 /// Both sides are read anew, so that what is shown was so at about one time.
 void CompareDialog::onChosen()
 {
-    const int number = ++m_reads;
+    ++m_reads;
     m_here.reset();
     m_there.reset();
     if (!m_of->isChosen() || !m_with->isChosen())
         return m_model->setRows({});
     say(tr("Being read…"));
-    m_of->read([here = QPointer<CompareDialog>(this), number](const Result<Backup> &backup) {
+    readSide(*m_of, m_here);
+}
+
+/// `source` into `side`, one of this dialog's, then what is still to be read, then the rows.
+void CompareDialog::readSide(CompareSource &source, std::optional<Backup> &side)
+{
+    if (!source.isChosen()) // it went meanwhile
+        return onFailed(tr("That device is gone."));
+    source.read([here = QPointer<CompareDialog>(this), &side, number = m_reads](const Result<Backup> &backup) {
         if (!here || number != here->m_reads)
             return;
         if (!backup)
             return here->onFailed(backup.error().text);
-        here->m_here = *backup;
-        here->readThere(number);
+        side = *backup;
+        if (here->m_there)
+            here->showRows();
+        else
+            here->readSide(*here->m_with, here->m_there);
     });
 }
 
-void CompareDialog::readThere(int number)
+void CompareDialog::showRows()
 {
-    if (!m_with->isChosen()) // it went meanwhile
-        return onFailed(tr("That device is gone."));
-    m_with->read([here = QPointer<CompareDialog>(this), number](const Result<Backup> &backup) {
-        if (!here || number != here->m_reads)
-            return;
-        if (!backup)
-            return here->onFailed(backup.error().text);
-        here->m_there = *backup;
-        const auto title = [](const Backup &side) {
-            return side.file.isEmpty() ? side.name() : QFileInfo(side.file).fileName();
-        };
-        here->m_model->setTitles(tr("Here: %1").arg(title(*here->m_here)), tr("There: %1").arg(title(*backup)));
-        here->m_model->setRows(compareBackups(*here->m_here, *backup));
-    });
+    const auto title = [](const Backup &side) {
+        return side.file.isEmpty() ? side.name() : QFileInfo(side.file).fileName();
+    };
+    m_model->setTitles(tr("Here: %1").arg(title(*m_here)), tr("There: %1").arg(title(*m_there)));
+    m_model->setRows(compareBackups(*m_here, *m_there));
 }
 
 void CompareDialog::say(const QString &text)

@@ -31,7 +31,8 @@ private:
     void makeView();
     void onChosen();
     void onFailed(const QString &why);
-    void readThere(int number);
+    void readSide(CompareSource &source, std::optional<Backup> &side);
+    void showRows();
     void update();
     void say(const QString &text);
     void restoreSelected();
