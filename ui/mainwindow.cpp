@@ -6,8 +6,6 @@
 #include "core/session/monitor.h"
 #include "core/session/scanner.h"
 #include "core/session/stopcontrol.h"
-#include "core/session/procedures/movefile.h"
-#include "ui/commission/commissiondialog.h"
 #include "ui/common/icons.h"
 #include "ui/common/loweredge.h"
 #include "ui/common/messagebar.h"
@@ -15,7 +13,6 @@
 #include "ui/common/stopkey.h"
 #include "ui/connection/connectionbar.h"
 #include "ui/connection/connector.h"
-#include "ui/dashboard/dashboarddialog.h"
 #include "ui/devices/deviceactions.h"
 #include "ui/devices/devicepanel.h"
 #include "ui/devices/leftmoves.h"
@@ -25,9 +22,7 @@
 #include "ui/health/rateremedies.h"
 #include "ui/health/wantedrates.h"
 #include "ui/journal/undoactions.h"
-#include "ui/library/librarydialog.h"
 #include "ui/plot/plotarea.h"
-#include "ui/profile/profileview.h"
 #include "ui/record/recordactions.h"
 #include "ui/table/tablepanel.h"
 #include "ui/window/firstread.h"
@@ -84,6 +79,7 @@ MainWindow::MainWindow(const Workbench &workbench, QWidget *parent)
     setWindowTitle(tr("Dynascope"));
     setWindowIcon(applicationIcon());
     setMinimumSize(900, 600);
+    setAcceptDrops(true);
     build();
     m_layout = new LayoutManager(*this, {*m_whole, *m_outer, *m_inner});
     std::vector<QAction *> editActions;
@@ -197,6 +193,7 @@ void MainWindow::connectConnection()
     connect(m_welcome, &WelcomePage::libraryRequested, this, &MainWindow::openLibrary);
     connect(m_menus, &Menus::dashboardRequested, this, &MainWindow::openDashboard);
     connect(m_menus, &Menus::profileRequested, this, &MainWindow::openProfile);
+    connect(m_menus, &Menus::recordingRequested, this, &MainWindow::askForRecording);
     connect(m_menus, &Menus::focusRequested, this, &MainWindow::focusPane);
     connect(m_menus, &Menus::unitsChosen, this, &MainWindow::setUnits);
     connect(m_menus, &Menus::schemeRequested, this, [this](ColorScheme scheme) {
@@ -234,55 +231,6 @@ void MainWindow::setRefusedTables(const std::vector<RefusedTable> &refused)
         m_messages->post(MessageKind::Warning, one.text);
 }
 
-/// At the selected device's model, where there is one.
-void MainWindow::openLibrary()
-{
-    const QString name = QStringLiteral("libraryDialog");
-    if (raiseOpen(*this, name))
-        return;
-    auto *dialog = new LibraryDialog(m_workbench.session.catalog(), m_refused, this);
-    dialog->setUnits(savedUnits());
-    connect(m_menus, &Menus::unitsChosen, dialog, &LibraryDialog::setUnits);
-    if (const std::vector<Device *> devices = m_devices->selectedDevices(); !devices.empty())
-        dialog->showModel(devices.front()->modelNumber(), devices.front()->firmware());
-    present(*dialog);
-}
-
-void MainWindow::openDashboard()
-{
-    if (raiseOpen(*this, QStringLiteral("dashboardDialog")))
-        return;
-    auto *dashboard = new DashboardDialog(m_workbench, *m_alarms, this);
-    dashboard->setUnits(savedUnits());
-    connect(m_menus, &Menus::unitsChosen, dashboard, &DashboardDialog::setUnits);
-    connect(dashboard, &DashboardDialog::deviceChosen, m_devices, &DevicePanel::selectDevice);
-    present(*dashboard);
-}
-
-void MainWindow::openProfile()
-{
-    if (raiseOpen(*this, QStringLiteral("profileView")))
-        return;
-    auto *view = new ProfileView(m_workbench, shownLine(), this);
-    view->setUnits(savedUnits());
-    connect(m_menus, &Menus::unitsChosen, view, &ProfileView::setUnits);
-    connect(view, &ProfileView::torqueTurnedOn, m_guard, [this](DeviceKey key) { m_guard->noteEnabled({key}); });
-    present(*view);
-}
-
-/// On the line that is shown; one of each.
-void MainWindow::openCommission()
-{
-    LineSession *line = shownLine();
-    const QString name = QStringLiteral("commissionDialog");
-    if (!line || raiseOpen(*this, name, line->name()))
-        return;
-    auto *dialog = new CommissionDialog(m_workbench.commands, *line, MoveFile::usualFolder(), this);
-    connect(dialog, &CommissionDialog::posted, m_messages,
-            [this](MessageKind kind, const QString &text) { m_messages->post(kind, text); });
-    present(*dialog, line->name());
-}
-
 void MainWindow::connectPlots()
 {
     connect(m_table, &TablePanel::plotRequested, m_plots, &PlotArea::addTrace);
@@ -305,6 +253,11 @@ void MainWindow::connectTo(const QString &port, int baudRate)
 void MainWindow::setScheme(ColorScheme scheme)
 {
     m_menus->setScheme(scheme);
+}
+
+void MainWindow::say(MessageKind kind, const QString &text)
+{
+    m_messages->post(kind, text);
 }
 
 void MainWindow::onLines()

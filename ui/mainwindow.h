@@ -3,6 +3,7 @@
 
 #include "core/session/session.h"
 #include "core/table/usertables.h"
+#include "ui/common/messagebar.h"
 #include "ui/common/theme.h"
 #include "ui/common/workbench.h"
 
@@ -21,7 +22,6 @@ class FirstRead;
 class HealthPanel;
 class LayoutManager;
 class Menus;
-class MessageBar;
 class PlotArea;
 class RecordActions;
 class StatusView;
@@ -50,13 +50,17 @@ public:
     void setRefusedTables(const std::vector<RefusedTable> &refused);
 
     void setScheme(ColorScheme scheme); ///< which one the menu ticks; applied by who asked for it
+    void say(MessageKind kind, const QString &text); ///< in the message bar
 
 signals:
     void schemeRequested(dynascope::ColorScheme scheme);
     void resumeDemoRequested();
+    void recordingRequested(const QString &path); ///< to be opened
 
 protected:
     void closeEvent(QCloseEvent *event) override;
+    void dragEnterEvent(QDragEnterEvent *event) override;
+    void dropEvent(QDropEvent *event) override;
 
 private:
     void build();
@@ -70,6 +74,7 @@ private:
     void openDashboard();
     void openProfile();
     void openCommission();
+    void askForRecording();
     LineSession *shownLine() const; ///< what status bar, Bus health and title tell about; nullptr: none is open
     void focusPane(int pane);
     void restoreParts();

@@ -3,6 +3,7 @@ qt_add_resources(dynascope_ui dynascope_icons PREFIX /icons BASE ${PROJECT_SOURC
     FILES ${DYNASCOPE_ICONS})
 target_sources(dynascope_ui PRIVATE
     mainwindow.cpp mainwindow.h
+    mainwindow_dialogs.cpp
     window/firstread.cpp window/firstread.h
     window/helpdialogs.cpp window/helpdialogs.h
     window/layoutmanager.cpp window/layoutmanager.h

@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QFileInfo>
 
 #include <cstdio>
 #include <cstdlib>
@@ -47,6 +48,8 @@ WindowOptions parseOptions(const QApplication &application)
                                 QStringLiteral("Write the pictures of the documents into FOLDER and end."),
                                 QStringLiteral("FOLDER"));
     pictures.setFlags(QCommandLineOption::HiddenFromHelp);
+    parser.addPositionalArgument(QStringLiteral("recording"), QStringLiteral("Recordings (.mcap) to be opened, each in its window."),
+                                 QStringLiteral("[RECORDING...]"));
     parser.addOptions({port, baud, history, picture, pictures});
     if (!parser.parse(application.arguments())) {
         std::fprintf(stderr, "dynascope: %s\n", qPrintable(parser.errorText()));
@@ -78,10 +81,14 @@ WindowOptions parseOptions(const QApplication &application)
             std::exit(2);
         }
     }
-    if (!parser.positionalArguments().isEmpty()) {
-        std::fprintf(stderr, "dynascope: \"%s\" is not an option; a port is named with --port\n",
-                     qPrintable(parser.positionalArguments().constFirst()));
-        std::exit(2);
+    for (const QString &argument : parser.positionalArguments()) {
+        if (!QFileInfo(argument).isFile()) {
+            std::fprintf(stderr,
+                         "dynascope: \"%s\" is neither an option nor a recording that is there; a port is named with --port\n",
+                         qPrintable(argument));
+            std::exit(2);
+        }
+        options.recordings << argument;
     }
     return options;
 }

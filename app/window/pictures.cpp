@@ -222,6 +222,13 @@ int runWindow(QApplication &application, Workshop &workshop, const WindowOptions
     const bool picture = !options.picture.isEmpty() || !options.pictureDirectory.isEmpty();
     const bool simulated = !options.pictureDirectory.isEmpty() || (picture && options.port.isEmpty());
 
+    if (!options.recordings.isEmpty()) {
+        bool isAnyOpen = false;
+        for (const QString &path : options.recordings)
+            isAnyOpen = workshop.openRecording(path) != nullptr || isAnyOpen;
+        if (isAnyOpen && options.port.isEmpty())
+            return application.exec(); // nobody has asked for a bus
+    }
     workshop.window().show();
     if (picture)
         workshop.window().resize(1440, 900);

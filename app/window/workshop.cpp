@@ -4,6 +4,8 @@
 #include <QApplication>
 #include <QSettings>
 
+#include <algorithm>
+
 namespace dynascope {
 namespace {
 
@@ -57,8 +59,9 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     , m_indirect(m_session, m_monitor, m_settings, isPicture(options) ? QString() : IndirectFile::usualFolder())
     , m_stop(m_session, m_commands)
 {
-    if (options.historyBudget > 0)
-        m_monitor.setHistoryBudget(static_cast<std::size_t>(options.historyBudget) << 20);
+    m_historyBudget = static_cast<std::size_t>(std::max(0, options.historyBudget)) << 20;
+    if (m_historyBudget > 0)
+        m_monitor.setHistoryBudget(m_historyBudget);
     m_journal.setPatience({}); // STOP waits for no other program
     applyTheme(m_application, storedScheme());
     m_window = std::make_unique<MainWindow>(
@@ -68,6 +71,8 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
     m_window->setRefusedTables(m_tables.refused);
     QObject::connect(m_window.get(), &MainWindow::schemeRequested, m_window.get(),
                      [this](ColorScheme scheme) { applyScheme(scheme); });
+    QObject::connect(m_window.get(), &MainWindow::recordingRequested, m_window.get(),
+                     [this](const QString &path) { openRecording(path); });
     QObject::connect(m_window.get(), &MainWindow::resumeDemoRequested, m_window.get(), [this] {
         sim::Demo *demo = m_lines.demo();
         if (demo && !m_stop.isActive())
@@ -76,6 +81,24 @@ Workshop::Workshop(QApplication &application, const WindowOptions &options)
 }
 
 Workshop::~Workshop() = default;
+
+ReplayRoom *Workshop::openRecording(const QString &path)
+{
+    auto opened = ReplayRoom::open(m_catalog, path, m_historyBudget);
+    if (!opened) {
+        m_window->say(MessageKind::Error, opened.error().text);
+        return nullptr;
+    }
+    ReplayRoom *room = m_rooms.emplace_back(std::move(*opened)).get();
+    ReplayWindow &window = room->window();
+    QObject::connect(&window, &ReplayWindow::openRequested, &window, [this](const QString &other) { openRecording(other); });
+    // Not while it is being closed: its end takes the window with it.
+    QObject::connect(&window, &ReplayWindow::closed, m_window.get(), [this, room] {
+        std::erase_if(m_rooms, [room](const auto &one) { return one.get() == room; });
+    }, Qt::QueuedConnection);
+    window.show();
+    return room;
+}
 
 void Workshop::applyScheme(ColorScheme scheme)
 {

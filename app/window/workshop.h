@@ -3,6 +3,7 @@
 
 #include "app/window/lines.h"
 #include "app/window/options.h"
+#include "app/window/replayroom.h"
 #include "core/session/indirectreads.h"
 #include "core/session/journal/undo.h"
 #include "core/session/ramguard.h"
@@ -34,6 +35,8 @@ public:
     MainWindow &window() { return *m_window; }
 
     void applyScheme(ColorScheme scheme); ///< and remembers it
+    /// In a window of its own; what can't be read is said in the main window. nullptr then.
+    ReplayRoom *openRecording(const QString &path);
 
 private:
     QApplication &m_application;
@@ -51,6 +54,8 @@ private:
     Scanner m_scanner;
     StopControl m_stop;
     std::unique_ptr<MainWindow> m_window;
+    std::size_t m_historyBudget = 0; ///< bytes; 0: the usual one
+    std::vector<std::unique_ptr<ReplayRoom>> m_rooms;
 };
 
 } // namespace dynascope

@@ -19,6 +19,8 @@ public:
 
     /// Is this a name this factory knows how to open? Any thread.
     virtual bool knows(const QString &name) const = 0;
+    /// Are its lines a recording's? Nobody can be asked anything on them. Any thread.
+    virtual bool isRecorded() const { return false; }
     /// On the GUI thread, before a line of this name is opened: what must be started there.
     virtual void prepare(const QString &name) { Q_UNUSED(name) }
     /// On the thread that will use the line. Fails with PortNotFound, PortForbidden, PortBusy, PortUnsuitable.

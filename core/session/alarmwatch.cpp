@@ -36,7 +36,7 @@ void AlarmWatch::remove(Device *device)
     m_records.remove(device->key());
     if (m_devices.empty())
         m_timer.stop();
-    if (m_alarms.remove(device->key(), QDateTime::currentDateTime()))
+    if (m_alarms.remove(device->key(), m_session.wallNow()))
         emit alarmsChanged();
     emit looked();
 }
@@ -47,6 +47,15 @@ const Vitals *AlarmWatch::vitals(DeviceKey device) const
     return at == m_devices.end() ? nullptr : &at->second.vitals;
 }
 
+void AlarmWatch::startAnew()
+{
+    m_alarms = {};
+    m_records.clear();
+    m_kept.clear();
+    emit alarmsChanged();
+    look();
+}
+
 void AlarmWatch::clearEnded()
 {
     m_alarms.clearEnded();
@@ -55,7 +64,7 @@ void AlarmWatch::clearEnded()
 
 void AlarmWatch::look()
 {
-    const Alarms::Now now{std::chrono::steady_clock::now().time_since_epoch(), QDateTime::currentDateTime()};
+    const Alarms::Now now{m_session.now(), m_session.wallNow()};
     bool changed = false;
     for (auto &[key, watched] : m_devices) {
         const Device *device = m_session.device(key);

@@ -19,6 +19,7 @@ public:
     const FaultRecords &records() const { return m_records; }
     const Vitals *vitals(DeviceKey device) const; ///< nullptr: it is not there
     void clearEnded();                            ///< out of the list
+    void startAnew();                             ///< nothing was: a replay has gone elsewhere
     void look();                                  ///< now; else ten times a second while there are devices
 
 signals:

@@ -82,6 +82,8 @@ QString Device::lockReason(int fieldIndex, bool insisting) const
         return tr("Whether %1 may be written is not known.").arg(field.name);
     if (!field.isWritable() && !field.mayBeTried())
         return tr("%1 is read-only.").arg(field.name);
+    if (m_line && m_line->isRecorded())
+        return tr("This is a recording: it shows what was.");
     const bool isGone = m_line
         && (m_line->state() == BusThread::State::Lost || m_line->state() == BusThread::State::Closed);
     if (isGone) // while it opens an order waits

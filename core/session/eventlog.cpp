@@ -12,7 +12,6 @@ EventLog::EventLog(Session &session, const Journal *journal, const RamGuard *gua
     : QObject(parent)
     , m_session(session)
     , m_journal(journal)
-    , m_now([] { return LineTime(std::chrono::steady_clock::now().time_since_epoch()); })
 {
     connect(&session, &Session::deviceAdded, this, &EventLog::follow);
     connect(&session, &Session::deviceAboutToBeRemoved, this, [this](Device *device) { m_seen.erase(device->key()); });
@@ -23,7 +22,7 @@ EventLog::EventLog(Session &session, const Journal *journal, const RamGuard *gua
     if (guard) {
         connect(guard, &RamGuard::restarted, this, [this](DeviceKey key) {
             if (const Device *device = m_session.device(key))
-                add(*device, m_now(), LoggedEvent::Kind::Restart, tr("Has restarted: settings in RAM are lost"));
+                add(*device, m_session.now(), LoggedEvent::Kind::Restart, tr("Has restarted: settings in RAM are lost"));
         });
     }
 }
@@ -61,7 +60,7 @@ void EventLog::lookAtState(const Device &device)
     if (device.alert() && !seen.alert)
         add(device, device.lastHeard(), LoggedEvent::Kind::Alert, tr("Alert: hardware error"));
     if (device.state() == Device::State::Rebooting && seen.state != Device::State::Rebooting)
-        add(device, m_now(), LoggedEvent::Kind::Restart, tr("Reboot"));
+        add(device, m_session.now(), LoggedEvent::Kind::Restart, tr("Reboot"));
     seen.alert = device.alert();
     seen.state = device.state();
 }
@@ -77,7 +76,7 @@ void EventLog::onWritten(qint64 number)
             || device->modelNumber() != entry->device.modelNumber || device->baudRate() != entry->device.baudRate)
             continue;
         const RegisterChange &change = entry->changes.front();
-        add(*device, m_now() - ago, LoggedEvent::Kind::Write,
+        add(*device, m_session.now() - ago, LoggedEvent::Kind::Write,
             tr("%1: %2 → %3")
                 .arg(registerText(change), bytesText(change.before, change.isSigned),
                     bytesText(change.after, change.isSigned)));
@@ -96,8 +95,16 @@ void EventLog::clear()
     m_events.clear();
 }
 
+void EventLog::showRecorded(std::deque<LoggedEvent> events)
+{
+    m_isRecorded = true;
+    m_events = std::move(events);
+}
+
 void EventLog::add(const Device &device, LineTime at, LoggedEvent::Kind kind, const QString &text)
 {
+    if (m_isRecorded)
+        return;
     const LoggedEvent event{at, kind, device.key(), device.displayName(), text};
     m_events.insert(std::ranges::upper_bound(m_events, at, {}, &LoggedEvent::at), event);
     if (m_events.size() > Most)

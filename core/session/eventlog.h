@@ -4,7 +4,6 @@
 #include "core/session/session.h"
 
 #include <deque>
-#include <functional>
 
 namespace dynascope {
 
@@ -39,9 +38,8 @@ public:
     /// Index of the first at or after `at`; events().size() where there is none.
     std::size_t indexAt(LineTime at) const;
     void clear();
-
-    /// For what no line's clock stamps. The machine's monotonic clock, which serial lines use.
-    void setClock(std::function<LineTime()> now) { m_now = std::move(now); }
+    /// These, in the order of time, and none that is seen from now on: a recording's.
+    void showRecorded(std::deque<LoggedEvent> events);
 
 signals:
     void added(const dynascope::LoggedEvent &event);
@@ -63,7 +61,7 @@ private:
 
     Session &m_session;
     const Journal *m_journal;
-    std::function<LineTime()> m_now;
+    bool m_isRecorded = false;
     std::map<DeviceKey, Seen> m_seen;
     std::deque<LoggedEvent> m_events;
 };

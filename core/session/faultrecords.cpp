@@ -75,8 +75,8 @@ void FaultRecords::begin(const Alarm &alarm, const Device &device, const std::ve
     record.at = newest(device, fields);
     for (const Watch &watch : m_monitor.watches()) {
         const History *history = watch.device == device.key() ? m_monitor.history(watch) : nullptr;
-        if (history && !history->isEmpty())
-            record.at = std::max(record.at, history->last().at);
+        if (const auto last = history ? m_monitor.newest(*history) : std::nullopt)
+            record.at = std::max(record.at, last->at);
     }
     for (const VitalField &each : fields)
         add(record, device, each.field);
@@ -146,6 +146,13 @@ void FaultRecords::remove(DeviceKey device)
         m_open.erase(record.alarm);
     }
     std::erase_if(m_recent, [device](const auto &entry) { return entry.first.device == device; });
+}
+
+void FaultRecords::clear()
+{
+    m_recent.clear();
+    m_records.clear();
+    m_open.clear();
 }
 
 /// The last record stays whatever it holds: its traces are bounded themselves.

@@ -50,6 +50,7 @@ public:
     void begin(const Alarm &alarm, const Device &device, const std::vector<VitalField> &fields, LineTime now);
     void follow(const Device &device, LineTime now); ///< what came since, for the time after it
     void remove(DeviceKey device);                   ///< it goes; its records stay
+    void clear();
 
     const FaultRecord *find(quint64 alarm) const; ///< nullptr: none was kept
     std::size_t size() const { return m_records.size(); }

@@ -213,6 +213,13 @@ void LineSession::takeBatches()
     }
 }
 
+void LineSession::show(Batch batch)
+{
+    std::erase_if(batch.values, [this](const PollValue &value) { return !device(value.device); });
+    take(batch);
+    emit batchTaken(batch);
+}
+
 /// Behind what was read: the registers that were seen through it.
 void LineSession::unpack(Batch &batch)
 {

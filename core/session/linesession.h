@@ -38,9 +38,10 @@ public:
     BusThread::State state() const { return m_thread->state(); }
     int baudRate() const { return m_thread->baudRate(); }
     const Catalog &catalog() const { return m_catalog; }
+    bool isRecorded() const { return m_factory.isRecorded(); } ///< nothing can be asked: it shows what was
+    void show(Batch batch); ///< of a recording, as if the poller had brought it
 
-    /// In the order of baud rate and ID.
-    const std::vector<std::unique_ptr<Device>> &devices() const { return m_devices; }
+    const std::vector<std::unique_ptr<Device>> &devices() const { return m_devices; } ///< by baud rate and ID
     Device *device(DeviceKey key) const;
     Device *deviceAt(std::uint8_t id, int baudRate) const;
 
@@ -58,8 +59,7 @@ public:
     /// Full-rate cycles a second over the last second; 0 while nothing is watched at full rate.
     double cycleRate() const { return m_cycleRate; }
     double possibleRate() const { return m_foresight.possibleRate(); } ///< what the wire would allow for the same
-    /// What polling is taken to be like, with what adapter and host were seen to add.
-    const PollPrediction &prediction() const { return m_foresight.prediction(); }
+    const PollPrediction &prediction() const { return m_foresight.prediction(); } ///< with what adapter and host add
     const PollPlan &pollPlan() const { return m_plan; }
     /// See limitsOf(). Empty until they are looked for, which asking begins; rateChanged() tells.
     const std::vector<RateLimit> &limits();

@@ -50,7 +50,7 @@ void Monitor::follow(LineSession *line)
 void Monitor::drop(Device *device)
 {
     // A trace keeps its curve; what nobody watches any more has none.
-    m_histories.erase([this, device](const Watch &watch) {
+    eraseHistories([this, device](const Watch &watch) {
         return watch.device == device->key() && !m_watches.contains(watch);
     });
     std::erase_if(m_watches, [device](const Watch &watch) { return watch.device == device->key(); });
@@ -64,7 +64,8 @@ void Monitor::watch(const Watch &watch)
 {
     if (!m_watches.insert(watch).second)
         return;
-    m_histories.markGap(watch); // where it was watched before: nobody knows what was in between
+    if (!m_isRecorded)
+        m_histories->markGap(watch); // where it was watched before: nobody knows what was in between
     replanSoon();
     emit watchesChanged();
 }
@@ -72,7 +73,7 @@ void Monitor::watch(const Watch &watch)
 void Monitor::unwatch(const Watch &watch)
 {
     if (!m_session.device(watch.device))
-        m_histories.erase([&watch](const Watch &other) { return other == watch; });
+        eraseHistories([&watch](const Watch &other) { return other == watch; });
     if (m_watches.erase(watch) == 0)
         return;
     replanSoon();
@@ -170,8 +171,30 @@ bool Monitor::learned(const Batch &batch) const
 
 void Monitor::clear()
 {
-    m_histories.erase([this](const Watch &watch) { return !m_watches.contains(watch); });
-    m_histories.clear();
+    if (m_isRecorded)
+        return;
+    m_histories->erase([this](const Watch &watch) { return !m_watches.contains(watch); });
+    m_histories->clear();
+}
+
+/// What a recording holds is there as long as it is open.
+void Monitor::eraseHistories(const std::function<bool(const Watch &)> &which)
+{
+    if (!m_isRecorded)
+        m_histories->erase(which);
+}
+
+void Monitor::showRecorded(std::unique_ptr<Histories> histories)
+{
+    m_isRecorded = true;
+    m_histories = std::move(histories);
+    emit watchesChanged();
+}
+
+std::optional<History::Sample> Monitor::newest(const History &history) const
+{
+    const std::size_t end = m_isRecorded ? history.indexAt(m_session.now() + LineTime(1)) : history.size();
+    return end > 0 ? std::optional(history.at(end - 1)) : std::nullopt;
 }
 
 void Monitor::setPaused(bool paused)
@@ -226,12 +249,14 @@ void Monitor::markGaps(const LineSession &line)
     for (const Watch &watch : m_watches) {
         const Device *device = line.device(watch.device);
         if (device && (line.state() != BusThread::State::Open || device->state() != Device::State::Present))
-            m_histories.markGap(watch);
+            m_histories->markGap(watch);
     }
 }
 
 void Monitor::replan()
 {
+    if (m_isRecorded)
+        return;
     m_asked.clear();
     for (const auto &line : m_session.lines()) {
         if (!m_paused)
@@ -253,6 +278,8 @@ void Monitor::replan()
 
 void Monitor::record(const Batch &batch)
 {
+    if (m_isRecorded)
+        return;
     if (!m_asked.empty() && learned(batch))
         replanSoon();
     for (const PollValue &value : batch.values) {
@@ -265,11 +292,11 @@ void Monitor::record(const Batch &batch)
             const Field &field = device->table().fields()[static_cast<std::size_t>(at->field)];
             if (value.data.empty()) {
                 if (field.address >= value.address && field.address < value.address + value.length)
-                    m_histories.appendGap(*at, value.at);
+                    m_histories->appendGap(*at, value.at);
             } else if (field.address >= value.address && field.end() <= end) {
                 const auto offset = static_cast<std::size_t>(field.address - value.address);
                 const std::int64_t raw = rawFromBytes(field, ByteView(value.data).subspan(offset));
-                m_histories.append(
+                m_histories->append(
                     *at, value.at, static_cast<std::int32_t>(countedBy(*device, at->field, raw)));
             }
         }

@@ -6,6 +6,8 @@
 #include "core/session/watch.h"
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <set>
 
 namespace dynascope {
@@ -43,10 +45,17 @@ public:
 
     /// nullptr until its first sample. What was watched when its device went, unplugged or closed with its line, keeps
     /// its history until unwatch() or clear().
-    const History *history(const Watch &watch) const { return m_histories.find(watch); }
-    void clear(); ///< all histories
-    const Histories &histories() const { return m_histories; }
-    void setHistoryBudget(std::size_t bytes) { m_histories.setBudget(bytes); } ///< of all of them
+    const History *history(const Watch &watch) const { return m_histories->find(watch); }
+    void clear(); ///< all histories; not those of a recording
+    const Histories &histories() const { return *m_histories; }
+    void setHistoryBudget(std::size_t bytes) { m_histories->setBudget(bytes); } ///< of all of them
+
+    /// From now on these are the histories, known up to their end, while Session::now() is a replay's. Nothing is polled
+    /// any more, and no sample comes.
+    void showRecorded(std::unique_ptr<Histories> histories);
+    bool isRecorded() const { return m_isRecorded; }
+    /// The last sample up to now; in a replay there are later ones. Nothing where there is none.
+    std::optional<History::Sample> newest(const History &history) const;
 
     bool mayReadFast() const { return m_mayReadFast; }
     void setMayReadFast(bool may); ///< fast reads of those who know them; so at first
@@ -68,6 +77,7 @@ private:
     void replan();
     void markGaps(const LineSession &line);
     void record(const Batch &batch);
+    void eraseHistories(const std::function<bool(const Watch &)> &which);
     void glance(DeviceWatches &watches) const;
     static std::set<int> unknownLimits(const Device &device);
     bool learned(const Batch &batch) const;
@@ -75,7 +85,8 @@ private:
     Session &m_session;
     std::set<Watch> m_watches;
     std::map<Watch, double> m_rates; ///< of those not at full rate; stay while they aren't watched
-    Histories m_histories;
+    std::unique_ptr<Histories> m_histories = std::make_unique<Histories>();
+    bool m_isRecorded = false;
     std::vector<DeviceKey> m_selected;
     std::set<Watch> m_unfolded;
     std::map<DeviceKey, std::set<int>> m_signs; ///< stay for a device that comes back

@@ -2,6 +2,7 @@
 #include "core/session/session.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace dynascope {
 
@@ -10,6 +11,12 @@ Session::Session(LineFactory &factory, const Catalog &catalog, QObject *parent)
     , m_factory(factory)
     , m_catalog(catalog)
 {
+}
+
+Session::Clock Session::machineClock()
+{
+    return {[] { return LineTime(std::chrono::steady_clock::now().time_since_epoch()); },
+            [] { return QDateTime::currentDateTime(); }};
 }
 
 Session::~Session()

@@ -3,6 +3,10 @@
 
 #include "core/session/linesession.h"
 
+#include <QDateTime>
+
+#include <functional>
+
 namespace dynascope {
 
 /// The lines that are open and the devices on them; nothing else. What is done with them are classes of their own:
@@ -17,6 +21,18 @@ public:
     ~Session() override;
 
     const Catalog &catalog() const { return m_catalog; }
+
+    /// What time it is for whoever looks at devices: on the clock of their lines, and on the wall. The machine's, unless a
+    /// replay sets its own.
+    struct Clock {
+        std::function<LineTime()> line;
+        std::function<QDateTime()> wall;
+    };
+    LineTime now() const { return m_clock.line(); }
+    QDateTime wallNow() const { return m_clock.wall(); }
+    void setClock(Clock clock) { m_clock = std::move(clock); }
+    static Clock machineClock();
+
     const std::vector<std::unique_ptr<LineSession>> &lines() const { return m_lines; }
 
     /// Opens in the background; the line's state tells how it went. A line of this name that is open is closed first.
@@ -36,6 +52,7 @@ private:
     LineFactory &m_factory;
     const Catalog &m_catalog;
     DeviceKeys m_keys;
+    Clock m_clock = machineClock();
     std::vector<std::unique_ptr<LineSession>> m_lines;
 };
 

@@ -32,7 +32,7 @@ struct EventBench {
 
     EventBench()
     {
-        log.setClock([] { return LineTime(100s); });
+        session.setClock({[] { return LineTime(100s); }, [] { return QDateTime::currentDateTime(); }});
     }
     void torque(std::uint8_t value, LineTime at)
     {
@@ -82,7 +82,7 @@ private slots:
     void alertAndRebootAreNotedOnce()
     {
         EventBench bench;
-        bench.log.setClock([] { return LineTime(9'000'000s); });
+        bench.session.setClock({[] { return LineTime(9'000'000s); }, [] { return QDateTime::currentDateTime(); }});
         bench.device.setAlert(true);
         bench.device.setAlert(true);
         bench.device.setState(Device::State::Rebooting);

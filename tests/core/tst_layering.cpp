@@ -39,11 +39,14 @@ const std::vector<Rule> &rules()
                                                u"core/yaml/*"_s, u"core/protocol/protocol_values.h"_s}},
         {"core/record/", values + QStringList{u"core/record/*"_s, u"core/bus/*_values.h"_s,
                                               u"core/session/*_values.h"_s, u"core/table/*"_s}},
+        {"core/replay/", values + QStringList{u"core/replay/*"_s, u"core/record/*"_s, u"core/session/*"_s,
+                                              u"core/table/*"_s, u"core/bus/*_values.h"_s, u"core/bus/line.h"_s,
+                                              u"core/bus/linefactory.h"_s}},
         {"core/", values},
         {"ui/traffic/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s,
                                              u"core/protocol/*"_s, u"core/bus/*_values.h"_s}},
         {"ui/", values + QStringList{u"ui/*"_s, u"core/session/*"_s, u"core/table/*"_s, u"core/record/*"_s,
-                                     u"core/protocol/*_values.h"_s, u"core/bus/*_values.h"_s}},
+                                     u"core/replay/*"_s, u"core/protocol/*_values.h"_s, u"core/bus/*_values.h"_s}},
         {"app/", {u"app/*"_s, u"core/*"_s, u"ui/*"_s}},
     };
     return table;
@@ -176,6 +179,9 @@ void TestLayering::judges_data()
     row("core/record/recorder.h", "core/bus/poll_values.h", true, true);
     row("core/record/recorder.h", "core/bus/bus.h", true, false);
     row("core/record/recorder.h", "core/session/device.h", true, false);
+    row("core/replay/replayer.h", "core/session/session.h", true, true);
+    row("core/replay/replayer.h", "core/bus/bus.h", true, false);
+    row("core/session/session.h", "core/replay/replayer.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/poll_values.h", true, true);
     row("ui/plot/plot.cpp", "core/bus/bus.h", true, false);
     row("ui/plot/plot.cpp", "core/bus/linefactory.h", true, false);

@@ -171,7 +171,7 @@ private slots:
     void choosingARowIsChoosingItsDevice()
     {
         Bench bench(3);
-        DashboardDialog dialog(bench.workbench(), bench.alarms, nullptr);
+        DashboardDialog dialog(bench.session, bench.monitor, bench.alarms, nullptr);
         QSignalSpy chosen(&dialog, &DashboardDialog::deviceChosen);
         dialog.show();
         auto *view = dialog.findChild<QTreeView *>(QStringLiteral("dashboardView"));
@@ -193,7 +193,7 @@ private slots:
     void listsAlarmsAndSavesWhatWasBefore()
     {
         Bench bench(2);
-        DashboardDialog dialog(bench.workbench(), bench.alarms, nullptr);
+        DashboardDialog dialog(bench.session, bench.monitor, bench.alarms, nullptr);
         dialog.show();
         auto *view = dialog.findChild<QTreeView *>(QStringLiteral("alarmView"));
         const QAbstractItemModelTester tester(view->model(), QAbstractItemModelTester::FailureReportingMode::QtTest);
@@ -279,7 +279,7 @@ private slots:
     void fitsIntoASmallWindowAndStandsStill()
     {
         Bench bench;
-        DashboardDialog dialog(bench.workbench(), bench.alarms, nullptr);
+        DashboardDialog dialog(bench.session, bench.monitor, bench.alarms, nullptr);
         dialog.resize(960, 640);
         dialog.show();
         auto *view = dialog.findChild<QTreeView *>(QStringLiteral("dashboardView"));
@@ -305,7 +305,7 @@ private slots:
     {
         test::WorkbenchFixture bench;
         AlarmWatch watch(bench.session, bench.monitor);
-        DashboardDialog dialog(bench.workbench(), watch, nullptr);
+        DashboardDialog dialog(bench.session, bench.monitor, watch, nullptr);
         dialog.show();
         QVERIFY(dialog.findChild<QLabel *>(QStringLiteral("dashboardEmpty"))->isVisible());
         QVERIFY(dialog.findChild<QLabel *>(QStringLiteral("alarmEmpty"))->isVisible());

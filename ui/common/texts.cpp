@@ -105,6 +105,8 @@ QString lineStateText(const LineSession &line)
     switch (line.state()) {
     case BusThread::State::Opening: return Texts::tr("Opening…");
     case BusThread::State::Open:
+        if (line.isRecorded())
+            return Texts::tr("Recorded at %1").arg(baudText(line.baudRate()));
         if (isRateTheServers(line.name()))
             return Texts::tr("Connected at the server's rate");
         return Texts::tr("Connected at %1").arg(baudText(line.baudRate()));

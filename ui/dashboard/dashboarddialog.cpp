@@ -82,18 +82,14 @@ void makeFlat(QTreeView &view, const char *name, const QString &accessible)
     heading->setStretchLastSection(false);
 }
 
-LineTime monotonicNow()
-{
-    return std::chrono::steady_clock::now().time_since_epoch();
-}
-
 } // namespace
 
-DashboardDialog::DashboardDialog(const Workbench &workbench, AlarmWatch &watch, QWidget *window)
+DashboardDialog::DashboardDialog(Session &session, Monitor &monitor, AlarmWatch &watch, QWidget *window)
     : QDialog(window)
-    , m_workbench(workbench)
+    , m_session(session)
+    , m_monitor(monitor)
     , m_watch(watch)
-    , m_model(new DashboardModel(workbench.session, watch, this))
+    , m_model(new DashboardModel(session, watch, this))
     , m_alarms(new AlarmModel(watch, this))
     , m_saver(new FaultSaver(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
@@ -138,7 +134,7 @@ DashboardDialog::DashboardDialog(const Workbench &workbench, AlarmWatch &watch, 
 
 DashboardDialog::~DashboardDialog()
 {
-    m_workbench.monitor.setGlancing(false);
+    m_monitor.setGlancing(false);
     QSettings settings;
     settings.setValue(GeometryKey, saveGeometry());
     settings.setValue(SplitterKey, m_splitter->saveState());
@@ -251,7 +247,7 @@ void DashboardDialog::setUnits(const UnitPreferences &units)
 void DashboardDialog::refresh()
 {
     m_shown.restart();
-    m_model->refresh(monotonicNow());
+    m_model->refresh(m_session.now());
     m_stack->setCurrentIndex(m_model->rowCount() > 0 ? 1 : 0);
     m_summary->setText(m_model->rowCount() > 0 ? m_model->summary() : tr("No devices"));
     m_limits->setText(m_model->limitsSummary());
@@ -282,7 +278,7 @@ const Alarm *DashboardDialog::selectedAlarm() const
 
 void DashboardDialog::choose(DeviceKey key)
 {
-    if (Device *device = m_workbench.session.device(key))
+    if (Device *device = m_session.device(key))
         emit deviceChosen(device);
 }
 
@@ -307,14 +303,14 @@ void DashboardDialog::save()
 
 void DashboardDialog::showEvent(QShowEvent *event)
 {
-    m_workbench.monitor.setGlancing(true);
+    m_monitor.setGlancing(true);
     refresh();
     QDialog::showEvent(event);
 }
 
 void DashboardDialog::hideEvent(QHideEvent *event)
 {
-    m_workbench.monitor.setGlancing(false);
+    m_monitor.setGlancing(false);
     QDialog::hideEvent(event);
 }
 

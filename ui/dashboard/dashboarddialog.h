@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "ui/common/workbench.h"
 #include "ui/dashboard/faultsaver.h"
 
 #include <QDialog>
@@ -18,7 +17,10 @@ namespace dynascope {
 class AlarmModel;
 class AlarmWatch;
 class DashboardModel;
+class Device;
 class ElidedLabel;
+class Monitor;
+class Session;
 struct UnitPreferences;
 
 /// All devices at a glance, the worst first, and under them the alarms, each with what was kept of the time around it.
@@ -28,8 +30,8 @@ class DashboardDialog : public QDialog
     Q_OBJECT
 
 public:
-    /// `watch` and what is of the workbench outlive this.
-    DashboardDialog(const Workbench &workbench, AlarmWatch &watch, QWidget *window);
+    /// The first three outlive this.
+    DashboardDialog(Session &session, Monitor &monitor, AlarmWatch &watch, QWidget *window);
     ~DashboardDialog() override;
 
     void setUnits(const UnitPreferences &units);
@@ -51,7 +53,8 @@ private:
     const Alarm *selectedAlarm() const;
     void save();
 
-    Workbench m_workbench;
+    Session &m_session;
+    Monitor &m_monitor;
     AlarmWatch &m_watch;
     DashboardModel *m_model;
     AlarmModel *m_alarms;

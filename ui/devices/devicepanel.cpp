@@ -5,7 +5,7 @@
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
 #include "ui/devices/deviceactions.h"
-#include "ui/devices/devicedelegate.h"
+#include "ui/devices/devicetree.h"
 #include "ui/devices/devicetreemodel.h"
 
 #include <QHBoxLayout>
@@ -67,27 +67,10 @@ DevicePanel::DevicePanel(const Workbench &workbench, QWidget *parent)
 
 void DevicePanel::makeTree()
 {
-    m_tree->setObjectName(QStringLiteral("deviceTree"));
-    m_tree->setAccessibleName(tr("Devices"));
-    m_tree->setFrameShape(QFrame::NoFrame);
-    m_tree->setModel(m_model);
-    m_tree->setItemDelegate(new DeviceDelegate(m_tree));
-    m_tree->setHeaderHidden(true);
-    m_tree->setIndentation(14);
-    m_tree->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    m_tree->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    setUpDeviceTree(*m_tree, *m_model);
     m_tree->setContextMenuPolicy(Qt::CustomContextMenu);
-    m_tree->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    m_tree->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
-    m_tree->setTextElideMode(Qt::ElideMiddle);
     connect(m_tree->selectionModel(), &QItemSelectionModel::selectionChanged, this, &DevicePanel::onSelection);
     connect(m_tree, &QWidget::customContextMenuRequested, this, &DevicePanel::showContextMenu);
-    connect(m_model, &QAbstractItemModel::rowsInserted, m_tree, [this](const QModelIndex &parent) {
-        for (QModelIndex index = parent; index.isValid(); index = index.parent())
-            m_tree->expand(index);
-    });
-    connect(m_model, &QAbstractItemModel::rowsMoved, m_tree,
-            [this](const QModelIndex &, int, int, const QModelIndex &to) { m_tree->expand(to); });
     for (QAction *action : m_actions->menuActions()) {
         if (!action)
             continue;
@@ -98,7 +81,6 @@ void DevicePanel::makeTree()
         action->setShortcutContext(own ? Qt::WidgetShortcut : Qt::WindowShortcut);
         m_tree->addAction(action);
     }
-    m_tree->expandAll();
 }
 
 QWidget *DevicePanel::makeHeader()

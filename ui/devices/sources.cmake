@@ -5,6 +5,7 @@ target_sources(dynascope_ui PRIVATE
     devices/devicedelegate.cpp devices/devicedelegate.h
     devices/devicedialog.cpp devices/devicedialog.h
     devices/devicepanel.cpp devices/devicepanel.h
+    devices/devicetree.cpp devices/devicetree.h
     devices/devicetreemodel.cpp devices/devicetreemodel.h
     devices/devicetreetexts.cpp
     devices/factoryresetdialog.cpp devices/factoryresetdialog.h

@@ -71,6 +71,8 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, c
         }
     });
     connectBar();
+    if (monitor.isRecorded())
+        m_bar->beOfRecording();
     addPanel();
 }
 
@@ -339,6 +341,8 @@ void PlotArea::fit()
 
 void PlotArea::clear()
 {
+    if (m_monitor.isRecorded())
+        return;
     m_monitor.clear();
     m_events->clear();
     m_samplesSeen = 0;

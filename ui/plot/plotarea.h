@@ -47,6 +47,9 @@ public:
     const std::vector<PlotPanel *> &panels() const { return m_panels; }
     const TimeWindow &timeWindow() const { return m_window; }
     void setLive(bool live);
+    void follow(); ///< a replay has gone on, or elsewhere: what is live ends there
+    void showTimes(LineTime from, LineTime to); ///< pauses
+    void setOrigin(LineTime origin); ///< of a recording: what paused time axes call 0 s
     void setAutoscale(bool on);
     void setCursorsOn(bool on);
     PlotTrigger &trigger() const { return *m_trigger; }
@@ -83,6 +86,7 @@ private:
     void lookAtTrigger();
     void showTrigger();
     LineTime newest() const;
+    LineTime last() const;
     void addTo(PlotPanel *panel, const TraceKey &key);
     void removeFrom(PlotPanel *panel, const std::vector<TraceKey> &keys);
     std::set<Watch> needed() const;

@@ -21,10 +21,50 @@ constexpr std::size_t LookedAtAFrame = 100'000; ///< samples, about a millisecon
 
 LineTime PlotArea::newest() const
 {
+    if (m_monitor.isRecorded())
+        return m_session.now();
     LineTime newest{};
     for (const PlotPanel *panel : m_panels)
         newest = std::max(newest, panel->newest());
     return newest;
+}
+
+/// Up to where there is something to see: in a replay further than it has come.
+LineTime PlotArea::last() const
+{
+    LineTime last = newest();
+    for (const PlotPanel *panel : m_panels)
+        last = std::max(last, panel->newest());
+    return last;
+}
+
+void PlotArea::follow()
+{
+    const LineTime at = m_session.now();
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setPlayhead(at);
+    if (m_window.isLive())
+        refreshAll();
+}
+
+void PlotArea::setOrigin(LineTime origin)
+{
+    m_window.setOrigin(origin);
+    for (PlotPanel *panel : m_panels)
+        panel->ownTime().setOrigin(origin);
+}
+
+void PlotArea::showTimes(LineTime from, LineTime to)
+{
+    m_window.setLive(); // so that pausing learns anew how far it goes
+    for (PlotPanel *panel : m_panels)
+        panel->ownTime().setLive();
+    setLive(false);
+    const LineTime margin = (to - from) / 200; // columns lie where they lie
+    m_window.show(from - margin, to);
+    for (PlotPanel *panel : m_panels)
+        panel->ownTime().show(from - margin, to);
+    showNewest();
 }
 
 TimeWindow &PlotArea::windowOf(PlotPanel *panel)
@@ -41,9 +81,10 @@ void PlotArea::setLive(bool live)
             panel->ownTime().setLive();
     } else {
         const LineTime at = newest();
-        m_window.pause(at);
+        const LineTime end = last();
+        m_window.pause(at, end);
         for (PlotPanel *panel : m_panels)
-            panel->ownTime().pause(at);
+            panel->ownTime().pause(at, end);
     }
     m_bar->setLive(live);
     for (PlotPanel *panel : m_panels)
@@ -81,7 +122,8 @@ void PlotArea::askForTrigger()
         for (int row = 0; row < model.rowCount(); ++row) {
             const TraceModel::Linear scale = model.scaleOf(row);
             const History *history = model.history(row);
-            const double raw = history && !history->isEmpty() ? history->last().raw : 0;
+            const auto newest = history ? m_monitor.newest(*history) : std::nullopt;
+            const double raw = newest ? newest->raw : 0;
             sources.push_back({model.key(row), model.index(row).data().toString(), scale.unit, scale.decimals,
                 raw * scale.scale + scale.offset});
         }

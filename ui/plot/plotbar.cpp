@@ -116,8 +116,8 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
         button->setPopupMode(QToolButton::MenuButtonPopup);
     }
     addSeparator();
-    QAction *clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
-    connect(clear, &QAction::triggered, this, &PlotBar::clearRequested);
+    m_clear = add(QStringLiteral("trash"), tr("Clear"), tr("Forget all samples; the traces stay"));
+    connect(m_clear, &QAction::triggered, this, &PlotBar::clearRequested);
     auto *saveMenu = new QMenu(this);
     const auto addSave = [this, saveMenu](const char *name, const QString &iconName, const QString &text, const QString &tip,
                              const QString &shortcut) {
@@ -146,7 +146,7 @@ PlotBar::PlotBar(QWidget *parent) : QToolBar(parent), m_span(new SpanBox(this))
     QAction *panel =
         add(QStringLiteral("plus"), tr("Add panel"), tr("One more plot below; fields go to the one clicked last"));
     connect(panel, &QAction::triggered, this, &PlotBar::panelRequested);
-    m_needTraces = {m_pause, m_cursors, m_trigger, clear};
+    m_needTraces = {m_pause, m_cursors, m_trigger, m_clear};
     for (QAction *action : m_save)
         m_needTraces.append(action);
     setHasTraces(false);
@@ -167,6 +167,12 @@ QAction *PlotBar::addMenu(const QString &iconName, const QString &text, const QS
     if (auto *button = qobject_cast<QToolButton *>(widgetForAction(action)))
         button->setPopupMode(QToolButton::InstantPopup);
     return action;
+}
+
+void PlotBar::beOfRecording()
+{
+    m_pause->setVisible(false);
+    m_clear->setVisible(false);
 }
 
 void PlotBar::showLive(bool live)

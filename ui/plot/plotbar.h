@@ -46,6 +46,7 @@ public:
     void setCursors(bool on);
     void setTrigger(bool on);
     void setHasTraces(bool has);
+    void beOfRecording(); ///< nothing is live, and nothing to be forgotten
     const std::vector<QAction *> &saveActions() const { return m_save; }
     QMenu &layouts() const { return *m_layouts; } ///< filled by who knows them
 
@@ -70,6 +71,7 @@ private:
     SpanBox *m_span;
     QMenu *m_layouts;
     QAction *m_pause;
+    QAction *m_clear;
     QAction *m_autoscale;
     QAction *m_cursors;
     QAction *m_trigger;

@@ -89,6 +89,13 @@ void PlotChart::setTrigger(const TriggerMark &trigger)
     update();
 }
 
+void PlotChart::setPlayhead(LineTime at)
+{
+    m_playhead = at;
+    if (!m_window->isLive())
+        update();
+}
+
 LabelColumns PlotChart::labelColumns() const
 {
     LabelColumns columns{m_scales.labelled(0) ? 1 : 0, 0};
@@ -225,30 +232,19 @@ void PlotChart::paintPaths(QPainter &painter, const TimeView &view, const QRectF
     painter.restore();
 }
 
-/// The level, and, where the view stands, the moment.
-void PlotChart::paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const
+/// Where a replay stands, in what it has not come to yet and what it has behind it.
+void PlotChart::paintPlayhead(QPainter &painter, const TimeView &view, const QRectF &area) const
 {
-    if (!m_trigger.isOn)
+    const qreal x = std::round(area.left() + view.column(*m_playhead) / view.columns * area.width());
+    if (x < area.left() || x > area.right())
         return;
-    const QColor color = colors(palette()).warning;
-    painter.setPen(QPen(color, 1, Qt::DashLine));
-    if (m_trigger.hasLevel) {
-        const AxisRange &range = m_scales.range(m_trigger.unit);
-        const qreal y = std::round(area.bottom() - (m_trigger.level - range.minimum) / range.span() * area.height());
-        if (y >= area.top() && y <= area.bottom())
-            painter.drawLine(QPointF(area.left(), y), QPointF(area.right(), y));
-    }
-    if (m_trigger.isShown) {
-        const qreal x = std::round(area.left() + view.column(view.zero) / view.columns * area.width());
-        if (x >= area.left() && x <= area.right())
-            painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
-    }
-    const QFontMetricsF metrics(painter.font());
-    const QString text = metrics.elidedText(m_trigger.text, Qt::ElideRight, std::max(40.0, area.width() - 160));
-    const QRectF box(area.left() + 4, area.top() + PlotMarks::Size + 4, metrics.horizontalAdvance(text) + 8, metrics.height() + 2);
-    painter.fillRect(box, palette().color(QPalette::Base));
-    painter.setPen(colors(palette()).dimmed);
-    painter.drawText(box, Qt::AlignCenter, text);
+    constexpr qreal Head = 5;
+    const QColor color = colors(palette()).accent;
+    painter.setPen(QPen(color, 1));
+    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+    painter.setBrush(color);
+    painter.drawPolygon(QPolygonF{{QPointF(x - Head, area.bottom()), QPointF(x + Head, area.bottom()), QPointF(x, area.bottom() - Head)}});
+    painter.setBrush(Qt::NoBrush);
 }
 
 void PlotChart::paintBox(QPainter &painter, const QRectF &area) const
@@ -280,7 +276,9 @@ void PlotChart::paintEvent(QPaintEvent *)
         m_isVector ? paintPaths(painter, now, area) : paintTraces(painter, now, area);
     }
     m_marks.paint(painter, now, area, palette());
-    paintTrigger(painter, now, area);
+    m_trigger.paint(painter, now, area, palette(), m_trigger.hasLevel ? &m_scales.range(m_trigger.unit) : nullptr);
+    if (m_playhead && !m_window->isLive())
+        paintPlayhead(painter, now, area);
     m_cursors.paint(painter, now, area, palette());
     if (m_drag == Drag::Box)
         paintBox(painter, area);

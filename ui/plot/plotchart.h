@@ -5,9 +5,9 @@
 #include "ui/plot/plotcursors.h"
 #include "ui/plot/plotmarks.h"
 #include "ui/plot/plotscales.h"
-#include "ui/plot/plottrigger.h"
 #include "ui/plot/timewindow.h"
 #include "ui/plot/traceimage.h"
+#include "ui/plot/triggermark.h"
 
 #include <QWidget>
 
@@ -36,6 +36,7 @@ public:
     void setAxisRange(const QString &unit, double minimum, double maximum); ///< by hand
     void setCursors(const PlotCursors &cursors);
     void setTrigger(const TriggerMark &trigger);
+    void setPlayhead(LineTime at); ///< a replay stands there: marked in a view that is paused
     void setMarks(const PlotMarks &marks) { m_marks = marks; }
     void setVector(bool on) { m_isVector = on; } ///< painted in lines, not in pixels: for a drawing
     /// Room for labels left and right: kept alike by charts below each other, so that their times stand in line.
@@ -83,7 +84,7 @@ private:
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
     void paintBox(QPainter &painter, const QRectF &area) const;
     void paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const;
-    void paintTrigger(QPainter &painter, const TimeView &view, const QRectF &area) const;
+    void paintPlayhead(QPainter &painter, const TimeView &view, const QRectF &area) const;
     int axisAt(const QPointF &at) const; ///< whose labels are there; −1: none's
     std::vector<PlotScales::Scale *> scalesOf(int axis); ///< −1: all
     void zoomValues(int steps, qreal y, int axis = -1);
@@ -109,6 +110,7 @@ private:
     bool m_isVector = false, m_marked = false, m_showFocus = false; ///< the focus came by key
     PlotCursors m_cursors;
     TriggerMark m_trigger;
+    std::optional<LineTime> m_playhead;
     PlotMarks m_marks;
     std::optional<QPointF> m_mouse;
     Drag m_drag = Drag::None;

@@ -55,7 +55,7 @@ void PlotMarks::each(const TimeView &view, const QRectF &area, Visit visit) cons
         return;
     const std::deque<LoggedEvent> &events = log->events();
     for (std::size_t i = log->indexAt(view.shownTo()); i-- > 0 && events[i].at >= view.from();) {
-        if (devices.contains(events[i].device))
+        if (events[i].device == 0 || devices.contains(events[i].device))
             visit(events[i], std::round(area.left() + view.column(events[i].at) / view.columns * area.width()));
     }
 }

@@ -17,7 +17,7 @@ namespace dynascope {
 /// as by colour: restart ◆, alert !, torque ▲ on ▼ off, write ■.
 struct PlotMarks {
     const EventLog *log = nullptr; ///< none: nothing is marked
-    std::set<DeviceKey> devices;   ///< whose events are shown
+    std::set<DeviceKey> devices;   ///< whose events are shown, and those of none
 
     static constexpr qreal Size = 9; ///< in pixels
 

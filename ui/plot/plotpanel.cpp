@@ -80,7 +80,7 @@ void PlotPanel::makeButtons()
     m_more->setMenu(m_menu);
     connect(m_menu, &QMenu::aboutToShow, this, &PlotPanel::fillMenu);
     m_toLive->setIcon(icon(QStringLiteral("play")));
-    m_toLive->setText(tr("Back to live"));
+    m_toLive->setText(m_monitor.isRecorded() ? tr("Follow the replay") : tr("Back to live"));
     m_toLive->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
     m_toLive->setIconSize({16, 16});
     m_toLive->setAutoFillBackground(true);

@@ -5,6 +5,8 @@
 #include "core/session/eventlog.h"
 #include "core/session/trigger.h"
 
+#include "ui/plot/triggermark.h"
+
 #include <QObject>
 
 namespace dynascope {
@@ -19,18 +21,6 @@ struct TriggerChoice {
     TriggerSettings settings{}; ///< but level and hysteresis
 
     friend bool operator==(const TriggerChoice &, const TriggerChoice &) = default;
-};
-
-/// How a chart shows it.
-struct TriggerMark {
-    bool isOn = false;
-    bool isShown = false; ///< the view stands, and its zero is the moment
-    QString unit;         ///< of the axis on which the level is; with no unit where it is an event
-    bool hasLevel = false;
-    double level = 0;
-    QString text;         ///< "Waiting: rising through 180 °"
-
-    friend bool operator==(const TriggerMark &, const TriggerMark &) = default;
 };
 
 /// The trigger of a plot area: feeds core's Trigger and says what to show. GUI thread.

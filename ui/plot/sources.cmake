@@ -33,5 +33,6 @@ target_sources(dynascope_ui PRIVATE
     plot/tracemodel.cpp plot/tracemodel.h
     plot/tracemodel_derived.cpp
     plot/triggerdialog.cpp plot/triggerdialog.h
+    plot/triggermark.cpp plot/triggermark.h
     plot/deriveddialog.cpp plot/deriveddialog.h
 )

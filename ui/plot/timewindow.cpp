@@ -12,13 +12,13 @@ void TimeWindow::setSpan(LineTime span)
     m_pausedSpan = m_span;
 }
 
-void TimeWindow::pause(LineTime newest)
+void TimeWindow::pause(LineTime newest, LineTime last)
 {
     if (!m_live)
         return;
     m_live = false;
-    m_zero = newest;
-    m_last = newest;
+    m_zero = m_origin.value_or(newest);
+    m_last = std::max(newest, last);
     m_end = newest;
     m_pausedSpan = m_span;
 }
@@ -34,7 +34,7 @@ void TimeWindow::zoom(double factor, LineTime around)
     if (m_live)
         return;
     const auto wanted = LineTime(static_cast<std::int64_t>(static_cast<double>(m_pausedSpan.count()) * factor));
-    const LineTime span = std::clamp(wanted, ShortestZoom, LongestSpan);
+    const LineTime span = std::clamp(wanted, ShortestZoom, LongestZoom);
     const double actual = static_cast<double>(span.count()) / static_cast<double>(m_pausedSpan.count());
     m_end = std::min(around + LineTime(std::llround(static_cast<double>((m_end - around).count()) * actual)), m_last);
     m_pausedSpan = span;
@@ -44,7 +44,7 @@ void TimeWindow::show(LineTime from, LineTime to)
 {
     if (m_live || to <= from)
         return;
-    m_pausedSpan = std::clamp(to - from, ShortestZoom, LongestSpan);
+    m_pausedSpan = std::clamp(to - from, ShortestZoom, LongestZoom);
     m_end = std::min(from + (to - from) / 2 + m_pausedSpan / 2, m_last);
 }
 
@@ -54,7 +54,7 @@ void TimeWindow::hold(LineTime zero, LineTime before, LineTime after, LineTime l
     m_zero = zero;
     m_end = zero + after;
     m_last = std::max(last, m_end);
-    m_pausedSpan = std::clamp(before + after, ShortestZoom, LongestSpan);
+    m_pausedSpan = std::clamp(before + after, ShortestZoom, LongestZoom);
 }
 
 TimeView TimeWindow::view(int columns, LineTime newest) const

@@ -211,9 +211,9 @@ void TraceModel::refreshValues()
         const Device *device = m_session.device(trace.key.watch.device);
         const History *history = historyOf(trace);
         QString value;
-        if (device && !trace.gone && history && !history->isEmpty())
-            value = withMinus(
-                QString::number(history->last().raw * trace.scale + trace.offset, 'f', trace.decimals));
+        const bool isThere = device && !trace.gone && history;
+        if (const auto newest = isThere ? m_monitor.newest(*history) : std::nullopt)
+            value = withMinus(QString::number(newest->raw * trace.scale + trace.offset, 'f', trace.decimals));
         if (value == trace.value)
             continue;
         trace.value = value;

@@ -93,7 +93,7 @@ bool EditFlow::explainLock(const QModelIndex &cell, std::function<void()> then)
     const Field *field = fieldAt(cell);
     const std::vector<Device *> devices = targets(cell);
     const bool connected = std::ranges::none_of(devices, [](const Device *device) {
-        return device->line() && device->line()->state() != BusThread::State::Open;
+        return device->line() && (device->line()->state() != BusThread::State::Open || device->line()->isRecorded());
     });
     const bool byTorque = connected && field->needsTorqueOff() && isOnAll(cell)
         && std::ranges::any_of(devices, [](const Device *device) { return device->isTorqueOn(); });

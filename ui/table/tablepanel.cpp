@@ -97,8 +97,10 @@ void TablePanel::build()
     layout->addWidget(m_note);
     layout->addWidget(m_view, 1);
     layout->addWidget(makeRule(grid));
+    m_goals->hide(); // until there is a goal that may be set
     layout->addWidget(m_goals);
-    layout->addWidget(makeRule(grid));
+    if (m_actions.write)
+        layout->addWidget(makeRule(grid));
     layout->addWidget(m_help);
     m_empty = new TableEmpty(this);
     m_empty->setTexts(tr("No device selected"),
@@ -277,7 +279,7 @@ void TablePanel::currentChanged()
 {
     const QModelIndex cell = valueCell();
     m_help->showCell(cell);
-    if (m_model->devices().empty()) {
+    if (m_model->devices().empty() || !m_actions.write) {
         m_goals->setDevices({});
         return;
     }
@@ -331,10 +333,12 @@ void TablePanel::showMenu(const QPoint &at)
     }
     if (m_actions.setAgain && cell.data(RamStateRole).toInt() == static_cast<int>(RamState::Lost))
         actions.setAgain = [this] { setLostAgain(); };
-    actions.readAgain = [this] {
+    const auto readAgain = [this] {
         for (Device *device : std::vector<Device *>(m_model->devices()))
             m_actions.readAll(*device);
     };
+    if (m_actions.readAll)
+        actions.readAgain = readAgain;
     actions.deviceCount = static_cast<int>(m_model->devices().size());
     popupTableMenu(cell, actions, m_view->viewport()->mapToGlobal(at), this);
 }

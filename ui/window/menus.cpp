@@ -72,6 +72,10 @@ void Menus::makeFileMenu(const std::vector<QAction *> &saveActions)
     QAction *profile = add(menu, QStringLiteral("profileAction"), tr("Robot pro&file…"), QStringLiteral("Ctrl+Shift+P"),
                            QStringLiteral("differs"));
     connect(profile, &QAction::triggered, this, &Menus::profileRequested);
+    QAction *recording = add(menu, QStringLiteral("openRecordingAction"), tr("&Open recording…"), QStringLiteral("Ctrl+O"),
+                             QStringLiteral("film"));
+    recording->setToolTip(tr("What was recorded, in a window of its own, at any speed"));
+    connect(recording, &QAction::triggered, this, &Menus::recordingRequested);
     menu->addSeparator();
     for (QAction *action : saveActions) {
         if (action)

@@ -47,6 +47,7 @@ signals:
     void libraryRequested();
     void dashboardRequested();
     void profileRequested();
+    void recordingRequested(); ///< to be opened
     void commissionRequested();
     void resumeDemoRequested();
     void stopRequested();
