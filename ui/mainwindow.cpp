@@ -221,6 +221,7 @@ void MainWindow::connectDevices()
     connect(m_table, &TablePanel::notWritten, this,
             [this](const QString &text) { m_messages->post(MessageKind::Error, text); });
     connect(m_plots, &PlotArea::posted, m_messages, qOverload<Message>(&MessageBar::post));
+    connect(m_record, &RecordActions::openRequested, this, &MainWindow::recordingRequested);
     connect(m_record, &RecordActions::posted, m_messages, qOverload<Message>(&MessageBar::post));
 }
 

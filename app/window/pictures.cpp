@@ -2,6 +2,7 @@
 #include "app/window/pictures.h"
 
 #include "app/window/dialogpictures.h"
+#include "app/window/replaypicture.h"
 #include "app/window/workshop.h"
 #include "ui/devices/devicepanel.h"
 #include "ui/library/librarydialog.h"
@@ -36,6 +37,7 @@ public:
     PictureTaker(Workshop &workshop, const WindowOptions &options)
         : m_workshop(workshop)
         , m_dialogs(workshop)
+        , m_replay(workshop)
     {
         if (options.pictureDirectory.isEmpty())
             planOne(options.picture);
@@ -107,6 +109,11 @@ private:
         shot(ColorScheme::Dark, large, QStringLiteral("window-dark"));
         shot(ColorScheme::Light, small, QStringLiteral("window-small-light"));
         shot(ColorScheme::Dark, small, QStringLiteral("window-small-dark"));
+        m_steps.push_back({[this] { m_replay.record(); }, PlotTime});
+        m_steps.push_back({[this] { m_dialog = m_replay.open(); }, DialogTime});
+        shot(ColorScheme::Light, QSize(1360, 820), QStringLiteral("replay-light"));
+        shot(ColorScheme::Dark, QSize(1360, 820), QStringLiteral("replay-dark"));
+        m_steps.push_back({[this] { closeDialog(); }});
         for (const DialogPictures::One &one : m_dialogs.all()) {
             for (const auto &step : one.steps)
                 m_steps.push_back({[this, step] { m_dialog = step(); }, DialogTime});
@@ -201,7 +208,8 @@ private:
     QElapsedTimer m_elapsed;
     std::deque<Step> m_steps;
     DialogPictures m_dialogs;
-    QPointer<QDialog> m_dialog; ///< instead of the window
+    ReplayPicture m_replay;
+    QPointer<QWidget> m_dialog; ///< instead of the window
     bool m_failed = false;
 };
 

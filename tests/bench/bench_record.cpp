@@ -3,8 +3,12 @@
 // and to read through.
 #include "core/record/recording.h"
 #include "core/record/recordingsink.h"
+#include "core/replay/recordedlines.h"
+#include "core/replay/replaydata.h"
+#include "core/table/catalog.h"
 #include "tests/support/recordings.h"
 
+#include <QCoreApplication>
 #include <QElapsedTimer>
 #include <QFileInfo>
 #include <QTemporaryDir>
@@ -84,11 +88,39 @@ void open(const QString &path, const char *what)
         std::printf("  WRONG: %llu batches read\n", static_cast<unsigned long long>(batches));
 }
 
+/// Until every sample of it can be plotted.
+void show(const QString &path)
+{
+    auto catalog = Catalog::builtIn();
+    if (!catalog)
+        fail(catalog.error());
+    RecordedLines lines;
+    Session session(lines, *catalog);
+    QElapsedTimer timer;
+    timer.start();
+    auto recording = Recording::open(path);
+    if (!recording)
+        fail(recording.error());
+    const auto devices = addDevices(session, (*recording)->header());
+    if (!devices)
+        fail(devices.error());
+    const double opened = seconds(timer);
+    ReplayProgress progress;
+    auto data = loadReplay(**recording, *devices, {}, Histories::DefaultBudget, progress);
+    if (!data)
+        fail(data.error());
+    const double loaded = seconds(timer);
+    std::printf("          in the window: devices after %.1f ms, all %llu samples after %.2f s, %.2f bytes each in memory\n",
+                opened * 1e3, static_cast<unsigned long long>(data->samples), loaded,
+                static_cast<double>(data->histories->used()) / static_cast<double>(data->samples));
+}
+
 } // namespace
 
 /// bench_record [CYCLES [FOLDER]]: the folder keeps the files.
 int main(int argc, char **argv)
 {
+    const QCoreApplication application(argc, argv);
     const int cycles = argc > 1 ? std::atoi(argv[1]) : static_cast<int>(10'000'000 / SamplesACycle) + 1;
     const QTemporaryDir temporary;
     const QString folder = argc > 2 ? QString::fromLocal8Bit(argv[2]) : temporary.path();
@@ -97,6 +129,7 @@ int main(int argc, char **argv)
     write(folder + QStringLiteral("/cut.mcap"), cycles, false);
     write(folder + QStringLiteral("/whole.csv"), cycles, true);
     open(folder + QStringLiteral("/whole.mcap"), "with its index");
+    show(folder + QStringLiteral("/whole.mcap"));
     open(folder + QStringLiteral("/cut.mcap"), "cut off");
     return 0;
 }

@@ -92,9 +92,14 @@ void RecordActions::sayEnd()
     const MessageKind kind = !status.error.text.isEmpty() ? MessageKind::Error
         : status.lost > 0                                 ? MessageKind::Warning
                                                           : MessageKind::Success;
-    emit posted({kind, endText(status, m_recorder.length()), tr("Show in folder"),
-                 [folder = QFileInfo(status.path).absolutePath()] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder)); },
-                 Topic});
+    Message message{kind, endText(status, m_recorder.length()), tr("Show in folder"),
+                    [folder = QFileInfo(status.path).absolutePath()] { QDesktopServices::openUrl(QUrl::fromLocalFile(folder)); },
+                    Topic};
+    if (status.samples > 0 && status.path.endsWith(QStringLiteral(".mcap"))) {
+        message.otherText = tr("Open");
+        message.other = [this, path = status.path] { emit openRequested(path); };
+    }
+    emit posted(message);
 }
 
 void RecordActions::openOptions()

@@ -27,6 +27,7 @@ public:
 
 signals:
     void posted(const dynascope::Message &message);
+    void openRequested(const QString &path); ///< what was just recorded
 
 private:
     QAction *add(const QString &name, const QString &text, const QString &tip, const QString &iconName);

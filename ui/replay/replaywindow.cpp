@@ -36,7 +36,7 @@ const QString GeometryKey = QStringLiteral("replay/geometry");
 const QString OuterKey = QStringLiteral("replay/outer");
 const QString InnerKey = QStringLiteral("replay/inner");
 
-constexpr int PlottedFirst = 8; ///< positions: what most people look at first
+constexpr std::size_t PlottedFirst = 8; ///< traces
 
 TableActions readOnly(Monitor &monitor)
 {
@@ -205,21 +205,24 @@ void ReplayWindow::onLoaded()
     showRecording();
 }
 
-/// The positions, or else what there is most of.
+/// The positions, or else what there is.
 void ReplayWindow::plotFirst()
 {
-    int plotted = 0;
+    std::vector<Watch> positions, all;
     for (const ReplayDevice &device : m_replayer.devices().devices) {
         for (const ReplayField &field : device.fields) {
-            const bool isPosition = field.recorded.name == u"Present Position";
-            if (!isPosition || plotted == PlottedFirst || !m_monitor.history({device.key, field.field}))
+            const Watch watch{device.key, field.field};
+            if (!m_monitor.history(watch))
                 continue;
-            m_plots->addTrace(Watch{device.key, field.field});
-            ++plotted;
+            all.push_back(watch);
+            if (field.recorded.name == u"Present Position")
+                positions.push_back(watch);
         }
     }
-    if (plotted == 0 && m_replayer.busiest())
-        m_plots->addTrace(*m_replayer.busiest());
+    std::vector<Watch> &first = positions.empty() ? all : positions;
+    first.resize(std::min(first.size(), PlottedFirst));
+    for (const Watch &watch : first)
+        m_plots->addTrace(watch);
 }
 
 void ReplayWindow::setUnits(const UnitPreferences &units)
