@@ -86,7 +86,7 @@ Result<void> Replayer::open(const QString &path)
     for (const auto &line : m_session.lines())
         connect(line.get(), &LineSession::stateChanged, this, [this] {
             m_shown.reset();
-            show();
+            show(true);
         });
     m_progress = std::make_shared<ReplayProgress>();
     m_thread.reset(QThread::create(
@@ -118,7 +118,7 @@ void Replayer::takeData(Result<ReplayData> data)
         m_timer.stop();
     m_shown.reset();
     emit loaded();
-    show();
+    show(true);
 }
 
 /// What most was recorded of; and on to where something of everybody has come, if that is soon.
@@ -151,7 +151,7 @@ void Replayer::onTimer()
     const bool moves = m_clock.advance(LineTime(m_passed.nsecsElapsed()));
     m_passed.restart();
     if (moves)
-        show();
+        show(false);
     if (m_clock.isPlaying())
         return;
     if (m_isLoaded)
@@ -162,7 +162,7 @@ void Replayer::onTimer()
 void Replayer::seek(LineTime to)
 {
     m_clock.seek(to);
-    show();
+    show(true);
 }
 
 void Replayer::play()
@@ -170,7 +170,7 @@ void Replayer::play()
     const LineTime before = m_clock.position();
     m_clock.play();
     if (m_clock.position() != before)
-        show();
+        show(true);
     m_passed.start();
     m_timer.start();
     emit stateChanged();
@@ -209,16 +209,16 @@ QDateTime Replayer::wallTime(LineTime at) const
     return QDateTime::fromMSecsSinceEpoch(m_header.unixTime(at) / 1'000'000);
 }
 
-void Replayer::show()
+void Replayer::show(bool isSought)
 {
     const LineTime to = m_clock.position();
     if (m_isLoaded) {
-        const bool jumps = !m_shown || to < *m_shown || to - *m_shown > TellsUpTo;
-        if (jumps) {
+        const bool isFar = !m_shown || to < *m_shown || to - *m_shown > TellsUpTo;
+        if (isFar)
             showBefore(to - TellsUpTo);
+        if (isFar && isSought)
             emit jumped();
-        }
-        showBetween(jumps ? to - TellsUpTo : *m_shown, to);
+        showBetween(isFar ? to - TellsUpTo : *m_shown, to);
         m_shown = to;
     }
     emit moved();

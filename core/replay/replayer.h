@@ -52,14 +52,14 @@ signals:
     void loadProgressed();
     void loaded();
     void moved();        ///< the position; devices hold what they held there
-    void jumped();       ///< before moved(): not on from where it was. What is remembered of before says nothing
+    void jumped();       ///< before moved(): sought elsewhere. What is remembered of before says nothing
     void stateChanged(); ///< it plays, or does not; its speed
 
 private:
     void takeData(Result<ReplayData> data);
     void lookOver();
     void onTimer();
-    void show();
+    void show(bool isSought); ///< else it has come there by playing, however fast
     void showBefore(LineTime at);
     void showBetween(LineTime from, LineTime to);
     using Batches = std::map<LineSession *, Batch>;

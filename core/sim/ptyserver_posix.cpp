@@ -15,6 +15,7 @@
 #include <sys/eventfd.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 namespace dynascope::sim {
 namespace {
@@ -82,6 +83,7 @@ private:
     void run();
     void runPosted();
     void followPlug();
+    bool noticeClients();
     void hearClient(LineTime now);
     void answerClient(LineTime now);
     void tick(LineTime now);
@@ -95,6 +97,7 @@ private:
     std::function<void(const QString &)> m_onPacing;
     Pacing m_pacing;
     LineTime m_nextTick{}, m_overslept{}; ///< how much longer the last sleep was than it should
+    bool m_someoneLeft = false; ///< noticed, but not heeded yet
     const QString m_path, m_link;
     const int m_wake; ///< an eventfd
     std::atomic<bool> m_stop = false;
@@ -108,7 +111,7 @@ void PtyServer::Worker::run()
     m_bus->beginAt(wallTime());
     m_nextTick = wallTime();
     while (!m_stop.load(std::memory_order_acquire)) {
-        if (m_terminal && m_terminal->watchDescriptor() >= 0 && m_terminal->noticeClients()) {
+        if (m_terminal && noticeClients()) {
             hearClient(wallTime()); // its last words count
             m_bus->discardArrived(wallTime());
         }
@@ -119,6 +122,13 @@ void PtyServer::Worker::run()
         followPlug();
         wait();
     }
+}
+
+/// True where one has left since this last said so.
+bool PtyServer::Worker::noticeClients()
+{
+    const bool now = m_terminal->watchDescriptor() >= 0 && m_terminal->noticeClients();
+    return std::exchange(m_someoneLeft, false) || now;
 }
 
 /// The terminal is the adapter: pulled out, its clients see it end and the link goes; plugged in, there is a new one.
@@ -153,6 +163,9 @@ void PtyServer::Worker::hearClient(LineTime now)
         return;
     const Bytes bytes = m_terminal->read();
     if (!bytes.empty()) {
+        // Who says something has come, noticed or not: on a busy machine its answer may be due before the next look.
+        if (!m_terminal->hasClient())
+            m_someoneLeft = noticeClients();
         m_assembler.feed(bytes, now);
         if (m_overslept > Pacing::Late)
             m_pacing.heardLate(m_overslept, now);

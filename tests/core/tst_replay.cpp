@@ -394,6 +394,7 @@ void TestReplay::playsByTheClock()
     Room room;
     room.load(m_path);
     QSignalSpy states(&room.replayer, &Replayer::stateChanged);
+    QSignalSpy jumps(&room.replayer, &Replayer::jumped);
     room.replayer.setSpeed(100);
     room.replayer.play();
     QVERIFY(room.replayer.clock().isPlaying());
@@ -401,6 +402,7 @@ void TestReplay::playsByTheClock()
     QCOMPARE(room.session.now(), room.replayer.clock().end());
     QCOMPARE(room.position(0), recordedPosition(1, Cycles - 1));
     QCOMPARE(states.count(), 3); // speed, play, end
+    QCOMPARE(jumps.count(), 0);  // fast, but on: alarms go on, too
 }
 
 /// A line is open only when its thread has begun: what it was told before counts once it is.

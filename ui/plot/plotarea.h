@@ -49,7 +49,7 @@ public:
     void setLive(bool live);
     void follow(); ///< a replay has gone on, or elsewhere: what is live ends there
     void showTimes(LineTime from, LineTime to); ///< pauses
-    void setOrigin(LineTime origin); ///< of a recording: what paused time axes call 0 s
+    void setRecording(LineTime begin, LineTime end); ///< where paused time axes have their 0 s, and how far they go
     void setAutoscale(bool on);
     void setCursorsOn(bool on);
     PlotTrigger &trigger() const { return *m_trigger; }
@@ -124,6 +124,7 @@ private:
     QTimer m_frames;
     QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;
+    LineTime m_recordingEnd{};
     std::optional<PlotState::Trace> m_waitingTrigger;
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };

@@ -32,7 +32,7 @@ LineTime PlotArea::newest() const
 /// Up to where there is something to see: in a replay further than it has come.
 LineTime PlotArea::last() const
 {
-    LineTime last = newest();
+    LineTime last = std::max(newest(), m_recordingEnd);
     for (const PlotPanel *panel : m_panels)
         last = std::max(last, panel->newest());
     return last;
@@ -47,11 +47,10 @@ void PlotArea::follow()
         refreshAll();
 }
 
-void PlotArea::setOrigin(LineTime origin)
+void PlotArea::setRecording(LineTime begin, LineTime end)
 {
-    m_window.setOrigin(origin);
-    for (PlotPanel *panel : m_panels)
-        panel->ownTime().setOrigin(origin);
+    m_recordingEnd = end;
+    m_window.setOrigin(begin); // a panel's own time begins as this one
 }
 
 void PlotArea::showTimes(LineTime from, LineTime to)

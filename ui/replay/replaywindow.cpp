@@ -36,6 +36,7 @@ const QString GeometryKey = QStringLiteral("replay/geometry");
 const QString OuterKey = QStringLiteral("replay/outer");
 const QString InnerKey = QStringLiteral("replay/inner");
 
+constexpr int SaidFor = 8000; ///< ms
 constexpr std::size_t PlottedFirst = 8; ///< traces
 
 TableActions readOnly(Monitor &monitor)
@@ -107,8 +108,8 @@ ReplayWindow::ReplayWindow(Session &session, Monitor &monitor, Replayer &replaye
     if (const std::vector<Device *> devices = session.devices(); !devices.empty())
         m_tree->setCurrentIndex(m_devices->indexOf(devices.front()));
     showRecording();
-    m_plots->setOrigin(replayer.clock().begin());
-    m_plots->showTimes(replayer.clock().begin(), replayer.clock().end());
+    m_tree->setFocus();
+    showWhole();
     if (replayer.isLoaded())
         onLoaded();
 }
@@ -154,8 +155,7 @@ void ReplayWindow::makeMenus()
     replay->addSeparator();
     QAction *whole = replay->addAction(icon(QStringLiteral("fit")), tr("Plot the &whole recording"));
     whole->setShortcut(QKeySequence(QStringLiteral("Ctrl+0")));
-    connect(whole, &QAction::triggered, this,
-            [this] { m_plots->showTimes(m_replayer.clock().begin(), m_replayer.clock().end()); });
+    connect(whole, &QAction::triggered, this, &ReplayWindow::showWhole);
 
     QMenu *view = menuBar()->addMenu(tr("&View"));
     connect(new UnitMenu(*view, this), &UnitMenu::chosen, this, &ReplayWindow::setUnits);
@@ -172,7 +172,7 @@ void ReplayWindow::connectParts()
     connect(m_table, &TablePanel::plotRequested, m_plots, &PlotArea::addTrace);
     connect(m_table, &TablePanel::unplotRequested, m_plots, &PlotArea::removeTrace);
     connect(m_plots, &PlotArea::tracesChanged, m_table, &TablePanel::refreshWatches);
-    connect(m_plots, &PlotArea::posted, this, [this](const Message &message) { m_said->setText(message.text); });
+    connect(m_plots, &PlotArea::posted, this, [this](const Message &message) { statusBar()->showMessage(message.text, SaidFor); });
     connect(&m_replayer, &Replayer::moved, m_plots, &PlotArea::follow);
     connect(&m_replayer, &Replayer::jumped, m_alarms, &AlarmWatch::startAnew);
     connect(&m_replayer, &Replayer::loadProgressed, this, &ReplayWindow::showRecording);
@@ -201,8 +201,15 @@ void ReplayWindow::onLoaded()
     m_plots->events().showRecorded(m_replayer.events());
     if (m_plots->traces().empty())
         plotFirst();
-    m_plots->showTimes(m_replayer.clock().begin(), m_replayer.clock().end());
+    showWhole();
     showRecording();
+}
+
+void ReplayWindow::showWhole()
+{
+    const ReplayClock &clock = m_replayer.clock();
+    m_plots->setRecording(clock.begin(), clock.end());
+    m_plots->showTimes(clock.begin(), clock.end());
 }
 
 /// The positions, or else what there is.

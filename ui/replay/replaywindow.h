@@ -45,6 +45,7 @@ private:
     void connectParts();
     void onSelection();
     void onLoaded();
+    void showWhole();
     void plotFirst();
     void setUnits(const UnitPreferences &units);
     void openDashboard();
