@@ -151,6 +151,8 @@ QString deviceStateHelp(const Device &device)
         return Texts::tr("Parked at %1, last heard %2. It isn't polled while the line works at another baud rate.")
             .arg(baudText(device.baudRate()), agoText(device.lastHeard()));
     case Device::State::Silent:
+        if (device.line() && device.line()->isRecorded())
+            return Texts::tr("It did not answer then.");
         if (device.answersOnlyPing()) {
             return Texts::tr("It answers Ping but no Read, as a Status Return Level of 0 tells a device to. Set Status "
                              "Return Level to 1 or 2 and it can be read again.");
