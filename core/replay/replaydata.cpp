@@ -2,6 +2,7 @@
 #include "core/replay/replaydata.h"
 
 #include <algorithm>
+#include <future>
 #include <unordered_map>
 
 namespace dynascope {
@@ -29,7 +30,7 @@ public:
     {
         m_data.histories = std::make_unique<Histories>(budget);
         for (const ReplayDevice &device : devices.devices)
-            m_devices.emplace(device.recorded, &device);
+            m_devices.emplace(device.recorded, Kept{&device, std::vector<History *>(device.fields.size())});
     }
 
     void take(const Recording::Part &part)
@@ -40,6 +41,7 @@ public:
         }
         for (const RecordedEvent &event : part.events)
             take(event);
+        m_data.histories->bound();
     }
     void countDamaged() { ++m_data.damagedParts; }
     ReplayData finish()
@@ -50,23 +52,33 @@ public:
     }
 
 private:
+    /// A device with the history of each of its fields, from its first sample on.
+    struct Kept {
+        const ReplayDevice *device = nullptr;
+        std::vector<History *> histories;
+    };
+
     void take(const RecordedReply &reply)
     {
-        const auto device = m_devices.find(reply.device);
-        if (device == m_devices.end())
+        const auto kept = m_devices.find(reply.device);
+        if (kept == m_devices.end())
             return;
-        const DeviceKey key = device->second->key;
+        const ReplayDevice &device = *kept->second.device;
         m_data.last = std::max(m_data.last, reply.at);
         if (reply.data.empty() && m_data.missed.size() < MostMissed)
-            m_data.missed.push_back({reply.at, key, reply.address, reply.length});
-        for (const ReplayField &field : device->second->fields) {
-            if (field.recorded.address < reply.address || field.recorded.end() > reply.address + reply.length)
+            m_data.missed.push_back({reply.at, device.key, reply.address, reply.length});
+        for (std::size_t i = 0; i < device.fields.size(); ++i) {
+            const RecordedField &field = device.fields[i].recorded;
+            if (field.address < reply.address || field.end() > reply.address + reply.length)
                 continue;
-            const Watch watch{key, field.field};
+            History *&history = kept->second.histories[i];
             if (reply.data.empty()) {
-                m_data.histories->appendGap(watch, reply.at);
-            } else if (const auto raw = countedRaw(field.recorded, reply.address, reply.data)) {
-                m_data.histories->append(watch, reply.at, *raw);
+                if (history)
+                    history->appendGap(reply.at);
+            } else if (const auto raw = countedRaw(field, reply.address, reply.data)) {
+                if (!history)
+                    history = &m_data.histories->open({device.key, device.fields[i].field}, reply.at);
+                history->append(reply.at, *raw);
                 ++m_data.samples;
             }
         }
@@ -88,7 +100,7 @@ private:
     }
 
     const std::map<DeviceKey, QString> &m_names;
-    std::unordered_map<quint32, const ReplayDevice *> m_devices;
+    std::unordered_map<quint32, Kept> m_devices;
     ReplayData m_data;
 };
 
@@ -98,10 +110,20 @@ Result<ReplayData> loadReplay(Recording &recording, const ReplayDevices &devices
                               const std::map<DeviceKey, QString> &names, std::size_t budget, ReplayProgress &progress)
 {
     Loader loader(devices, names, budget);
+    // The next part is unpacked while this one is taken: of about as much work each.
+    const auto reading = [&recording](std::size_t part) {
+        return std::async(std::launch::async, [&recording, part] { return recording.read(part); });
+    };
+    std::future<Result<Recording::Part>> next;
+    if (recording.parts() > 0)
+        next = reading(0);
     for (std::size_t part = 0; part < recording.parts(); ++part) {
+        const Result<Recording::Part> content = next.get();
         if (progress.isCancelled)
             return failure(ErrorKind::Cancelled, QStringLiteral("The recording was closed before all of it was read"));
-        if (const auto content = recording.read(part))
+        if (part + 1 < recording.parts())
+            next = reading(part + 1);
+        if (content)
             loader.take(*content);
         else
             loader.countDamaged();

@@ -34,7 +34,7 @@ struct ReplayProgress {
     std::atomic<bool> isCancelled{false};
 };
 
-/// Reads all of it. Any thread; the recording and `devices` are its own meanwhile. Cancelled: half of it is no use.
+/// Reads all of it, in two threads. Any thread; the recording and `devices` are its own meanwhile. Cancelled: half of it is no use.
 /// `names` are the devices', by key, as events name them.
 Result<ReplayData> loadReplay(Recording &recording, const ReplayDevices &devices,
                               const std::map<DeviceKey, QString> &names, std::size_t budget, ReplayProgress &progress);

@@ -17,10 +17,20 @@ const History *Histories::find(const Watch &watch) const
 
 void Histories::append(const Watch &watch, LineTime at, std::int32_t raw)
 {
+    open(watch, at).append(at, raw);
+    bound();
+}
+
+History &Histories::open(const Watch &watch, LineTime at)
+{
     auto place = m_histories.lower_bound(watch);
     if (place == m_histories.end() || place->first != watch)
         place = m_histories.emplace_hint(place, watch, History(m_memory, slotFor(watch, at)));
-    place->second.append(at, raw);
+    return place->second;
+}
+
+void Histories::bound()
+{
     if (m_memory.used() > std::max(m_budget, m_least))
         fold();
 }

@@ -21,10 +21,14 @@ public:
 
     std::size_t budget() const { return m_budget; }        ///< bytes
     std::size_t used() const { return m_memory.used(); }   ///< bytes, with what the heap takes for itself
-    void setBudget(std::size_t bytes);                     ///< folds at once what is too much
+    void setBudget(std::size_t bytes);                     ///< folds what is too much
 
     const History *find(const Watch &watch) const; ///< nullptr until its first sample
     void append(const Watch &watch, LineTime at, std::int32_t raw);
+    /// That to which append() would append, for whoever has much to append: it stays where it is until it is erased.
+    /// bound() then, now and again.
+    History &open(const Watch &watch, LineTime at);
+    void bound(); ///< folds what is too much
     void appendGap(const Watch &watch, LineTime at);
     void markGap(const Watch &watch); ///< behind its last sample
     void erase(const std::function<bool(const Watch &)> &which);
