@@ -21,7 +21,8 @@ Found foundOf(const RecordedDevice &device)
 }
 
 /// Where one line had devices at several rates, or one after the other at the same place, each is a line of its own here.
-LineSession &lineFor(Session &session, const QString &recorded, const Found &found)
+/// nullptr: these are too many.
+LineSession *lineFor(Session &session, const QString &recorded, const Found &found)
 {
     const QString line = recorded.isEmpty() ? QStringLiteral("recorded") : recorded;
     for (int number = 1;; ++number) {
@@ -29,9 +30,9 @@ LineSession &lineFor(Session &session, const QString &recorded, const Found &fou
         const auto &lines = session.lines();
         const auto open = std::ranges::find_if(lines, [&name](const auto &one) { return one->name() == name; });
         if (open == lines.end())
-            return session.open(name, found.baudRate);
+            return lines.size() < ReplayDevices::MostLines ? &session.open(name, found.baudRate) : nullptr;
         if ((*open)->baudRate() == found.baudRate && !(*open)->deviceAt(found.id, found.baudRate))
-            return **open;
+            return open->get();
     }
 }
 
@@ -71,7 +72,11 @@ Result<ReplayDevices> addDevices(Session &session, const RecordingHeader &header
     ReplayDevices all;
     for (const RecordedDevice &recorded : header.devices) {
         const Found found = foundOf(recorded);
-        Device &device = lineFor(session, recorded.line, found).heard(found);
+        LineSession *line = lineFor(session, recorded.line, found);
+        if (!line)
+            return failure(ErrorKind::BadFile, QStringLiteral("The recording tells of more than %1 lines, or of as many "
+                                                              "devices at one place").arg(ReplayDevices::MostLines));
+        Device &device = line->heard(found);
         if (recorded.label != QStringLiteral("ID %1").arg(recorded.id))
             device.setNickname(recorded.label);
         takeImage(device, recorded, header.startLine);

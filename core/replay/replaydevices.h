@@ -26,10 +26,11 @@ struct ReplayDevices {
 
     const ReplayDevice *find(quint32 recorded) const;
     static constexpr std::size_t Most = 2000;
+    static constexpr std::size_t MostLines = 32; ///< each is a thread
 };
 
 /// Opens the recording's lines in `session`, which knows no others, and puts its devices on them, with what is known of
-/// all their registers from its header. GUI thread. BadFile: more than Most devices.
+/// all their registers from its header. GUI thread. BadFile: more devices or lines than there can be.
 Result<ReplayDevices> addDevices(Session &session, const RecordingHeader &header);
 
 /// A raw value as a history has it, of bytes as a servo has them, and back. `registers` begin at `address`.

@@ -85,6 +85,7 @@ private slots:
     void refuses_data();
     void refuses();
     void splitsPlacesThatClash();
+    void refusesMoreThanThereCanBe();
     void endsWhileItReads();
 
 private:
@@ -473,6 +474,20 @@ void TestReplay::splitsPlacesThatClash()
     QVERIFY(!room.device(2).isKnownModel());
     QCOMPARE(room.replayer.devices().unplaced, 3); // its table is of bare bytes
     QCOMPARE(room.device(1).state(), Device::State::Present);
+}
+
+void TestReplay::refusesMoreThanThereCanBe()
+{
+    Room room;
+    RecordingHeader header;
+    for (quint32 key = 1; key <= ReplayDevices::MostLines + 1; ++key) {
+        header.devices.push_back(recordedDevice(key));
+        header.devices.back().id = 7;
+    }
+    QCOMPARE(addDevices(room.session, header).error().kind, ErrorKind::BadFile);
+    QCOMPARE(room.session.lines().size(), ReplayDevices::MostLines);
+    header.devices.assign(ReplayDevices::Most + 1, recordedDevice(1));
+    QCOMPARE(addDevices(room.session, header).error().kind, ErrorKind::BadFile);
 }
 
 void TestReplay::endsWhileItReads()
