@@ -22,20 +22,7 @@ constexpr int SamplesACycle = Devices * 3;
 
 Batch polled(int cycle)
 {
-    const RecordedBatch wanted = recordedBatch(Devices, cycle);
-    Batch batch;
-    batch.cycle = wanted.cycle;
-    batch.begin = wanted.begin;
-    for (const RecordedReply &reply : wanted.replies) {
-        PollValue value;
-        value.device = reply.device;
-        value.address = reply.address;
-        value.length = reply.length;
-        value.data = reply.data;
-        value.at = reply.at;
-        batch.values.push_back(value);
-    }
-    return batch;
+    return test::polled(recordedBatch(Devices, cycle));
 }
 
 /// As long as this lives no file of this process may grow beyond `bytes`.

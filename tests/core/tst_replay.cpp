@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/record/recorder.h"
 #include "core/replay/recordedlines.h"
 #include "core/replay/replayer.h"
 #include "core/session/alarmwatch.h"
@@ -8,6 +7,8 @@
 #include "tests/support/builtincatalog.h"
 #include "tests/support/recordings.h"
 #include "tests/support/testmain.h"
+
+#include <QSignalSpy>
 
 using namespace Qt::StringLiterals;
 using namespace dynascope;
@@ -89,35 +90,12 @@ private slots:
     void endsWhileItReads();
 
 private:
-    QString write(const QString &name, RecordingHeader header, int cycles = Cycles,
+    QString write(const QString &name, const RecordingHeader &header, int cycles = Cycles,
                   const std::vector<RecordedEvent> &events = {}) const
     {
-        RecorderSettings settings;
-        settings.path = m_folder.filePath(name);
-        settings.header = std::move(header);
-        const auto recorder = Recorder::start(settings).value();
-        auto event = events.begin();
-        for (int cycle = 0; cycle < cycles; ++cycle) {
-            const RecordedBatch batch = recordedBatch(Devices, cycle);
-            for (; event != events.end() && event->at <= batch.begin; ++event)
-                recorder->add(*event);
-            Batch polled;
-            polled.cycle = batch.cycle;
-            polled.begin = batch.begin;
-            for (const RecordedReply &reply : batch.replies) {
-                PollValue value;
-                value.device = reply.device;
-                value.address = reply.address;
-                value.length = reply.length;
-                value.data = reply.data;
-                value.at = reply.at;
-                polled.values.push_back(value);
-            }
-            recorder->add(polled);
-        }
-        if (!recorder->wait().error.text.isEmpty())
-            qFatal("not recorded");
-        return settings.path;
+        const QString path = m_folder.filePath(name);
+        writeRecording(path, header, cycles, events);
+        return path;
     }
 
     QTemporaryDir m_folder;
@@ -262,24 +240,17 @@ void TestReplay::tellsEachReadingWhilePlaying()
 
 void TestReplay::tellsWhoIsSilent()
 {
-    RecordingHeader header = recordingHeader(Devices);
     RecorderSettings settings;
     settings.path = m_folder.filePath(u"silent.mcap"_s);
-    settings.header = header;
+    settings.header = recordingHeader(Devices);
     const auto recorder = Recorder::start(settings).value();
     for (int cycle = 0; cycle < 1000; ++cycle) {
-        Batch batch;
-        batch.cycle = static_cast<quint64>(cycle);
-        batch.begin = at(cycle);
-        PollValue value;
-        value.device = 1;
-        value.address = RecordedAddress;
-        value.length = RecordedLength;
-        value.at = at(cycle);
-        if (cycle < 400 || cycle >= 600)
-            value.data = motion(1, cycle);
-        batch.values.push_back(value);
-        recorder->add(batch);
+        RecordedBatch batch = recordedBatch(1, cycle);
+        if (cycle >= 400 && cycle < 600)
+            batch.replies.front().data.clear();
+        else
+            batch.replies.front().data = motion(1, cycle);
+        recorder->add(polled(batch));
     }
     QVERIFY(recorder->wait().error.text.isEmpty());
     Room room;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/record/recorder.h"
 #include "core/record/recording.h"
 #include "core/record/recordingsink.h"
 
@@ -67,6 +68,43 @@ inline RecordedBatch recordedBatch(quint32 devices, int cycle)
                                  batch.begin + key * LineTime(20us)});
     }
     return batch;
+}
+
+/// As the poller would have brought it.
+inline Batch polled(const RecordedBatch &recorded)
+{
+    Batch batch;
+    batch.cycle = recorded.cycle;
+    batch.begin = recorded.begin;
+    for (const RecordedReply &reply : recorded.replies) {
+        PollValue value;
+        value.device = reply.device;
+        value.address = reply.address;
+        value.length = reply.length;
+        value.data = reply.data;
+        value.at = reply.at;
+        batch.values.push_back(value);
+    }
+    return batch;
+}
+
+/// So many cycles of as many devices as the header has; each event before the first cycle that is later.
+inline void writeRecording(const QString &path, const RecordingHeader &header, int cycles,
+                           const std::vector<RecordedEvent> &events = {})
+{
+    RecorderSettings settings;
+    settings.path = path;
+    settings.header = header;
+    const auto recorder = Recorder::start(settings).value();
+    auto event = events.begin();
+    for (int cycle = 0; cycle < cycles; ++cycle) {
+        const RecordedBatch batch = recordedBatch(static_cast<quint32>(header.devices.size()), cycle);
+        for (; event != events.end() && event->at <= batch.begin; ++event)
+            recorder->add(*event);
+        recorder->add(polled(batch));
+    }
+    if (const RecorderStatus status = recorder->wait(); !status.error.text.isEmpty())
+        qFatal("%s", qPrintable(status.error.text));
 }
 
 inline std::vector<RecordedBatch> allBatches(Recording &recording)

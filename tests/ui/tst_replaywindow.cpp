@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/record/recorder.h"
 #include "core/replay/recordedlines.h"
 #include "core/replay/replayer.h"
 #include "tests/support/builtincatalog.h"
@@ -19,6 +18,7 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QMimeData>
+#include <QSignalSpy>
 #include <QTreeView>
 #include <QUrl>
 
@@ -94,28 +94,9 @@ private:
 
 void TestReplayWindow::initTestCase()
 {
-    RecorderSettings settings;
-    settings.path = m_path = m_folder.filePath(u"arm.mcap"_s);
-    settings.header = recordingHeader(Devices);
-    const auto recorder = Recorder::start(settings).value();
-    for (int cycle = 0; cycle < Cycles; ++cycle) {
-        const RecordedBatch batch = recordedBatch(Devices, cycle);
-        Batch polled;
-        polled.cycle = batch.cycle;
-        polled.begin = batch.begin;
-        for (const RecordedReply &reply : batch.replies) {
-            PollValue value;
-            value.device = reply.device;
-            value.address = reply.address;
-            value.length = reply.length;
-            value.data = reply.data;
-            value.at = reply.at;
-            polled.values.push_back(value);
-        }
-        recorder->add(polled);
-    }
-    recorder->add(RecordedEvent{RecordingBegin + 1s, u"torque"_s, u"XM430-W350 #1: Torque off"_s});
-    QVERIFY(recorder->wait().error.text.isEmpty());
+    m_path = m_folder.filePath(u"arm.mcap"_s);
+    writeRecording(m_path, recordingHeader(Devices), Cycles,
+                   {{RecordingBegin + 1s, u"torque"_s, u"XM430-W350 #1: Torque off"_s}});
 }
 
 void TestReplayWindow::showsTheWholeAtOnce()
