@@ -88,6 +88,33 @@ private slots:
         QTRY_VERIFY(bench.isShown(30s));
     }
 
+    void theLevelIsDragged()
+    {
+        TriggerBench bench;
+        bench.jump(10s); // an axis from 0 to 180 degrees
+        bench.area.arm(bench.choice(TriggerSettings::Mode::Normal));
+        PlotChart &chart = bench.chart();
+        const double before = bench.area.trigger().choice().level;
+        const auto placeOf = [&chart](double level) {
+            const AxisRange &range = chart.scales().range(QStringLiteral("°"));
+            const QRectF area = chart.plotArea();
+            return QPointF(area.center().x(), area.bottom() - (level - range.minimum) / range.span() * area.height()).toPoint();
+        };
+        QTRY_VERIFY(!chart.grab().isNull() && chart.plotArea().contains(placeOf(before)));
+        const QPoint from = placeOf(before);
+        const QPoint to = placeOf(before + 40);
+        QTest::mousePress(&chart, Qt::LeftButton, {}, from);
+        QTest::mouseMove(&chart, (from + to) / 2);
+        QTest::mouseMove(&chart, to);
+        QTest::mouseRelease(&chart, Qt::LeftButton, {}, to);
+        const double level = bench.area.trigger().choice().level;
+        QVERIFY2(std::abs(level - (before + 40)) < 2, qPrintable(QString::number(level)));
+        QVERIFY(bench.area.trigger().isOn());
+        // A click on it moves nothing.
+        QTest::mouseClick(&chart, Qt::LeftButton, {}, placeOf(level));
+        QCOMPARE(bench.area.trigger().choice().level, level);
+    }
+
     void withoutAChoiceItAsks()
     {
         TriggerBench bench;

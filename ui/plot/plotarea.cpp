@@ -159,6 +159,11 @@ void PlotArea::connectChart(PlotPanel *panel)
     });
     connect(chart, &PlotChart::cursorMoved, this, &PlotArea::moveCursor);
     connect(chart, &PlotChart::cursorsToggled, this, [this] { setCursorsOn(!m_cursors.isOn); });
+    connect(chart, &PlotChart::triggerLevelChosen, this, [this](double level) {
+        TriggerChoice choice = m_trigger->choice();
+        choice.level = level;
+        arm(choice);
+    });
     connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::showAutoscale);
     connect(chart, &PlotChart::fitRequested, this, &PlotArea::fit);
 }

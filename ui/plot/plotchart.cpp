@@ -83,7 +83,7 @@ void PlotChart::setCursors(const PlotCursors &cursors)
 
 void PlotChart::setTrigger(const TriggerMark &trigger)
 {
-    if (trigger == m_trigger)
+    if (trigger == m_trigger || m_drag == Drag::Level)
         return;
     m_trigger = trigger;
     update();

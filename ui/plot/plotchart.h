@@ -60,6 +60,7 @@ signals:
     void fitRequested();                                                ///< double click
     void cursorMoved(int which, dynascope::LineTime at);                ///< from the view's zero
     void cursorsToggled();
+    void triggerLevelChosen(double level); ///< dragged there, in the unit of its axis
 
 protected:
     bool event(QEvent *event) override;
@@ -76,7 +77,7 @@ protected:
     void changeEvent(QEvent *event) override;
 
 private:
-    enum class Drag { None, Pan, Box, Cursor, Times, Values };
+    enum class Drag { None, Pan, Box, Cursor, Level, Times, Values };
 
     LabelColumns labelRoom() const;
     ChartFrame::Content frameContent(const TimeView &view) const;
@@ -95,6 +96,7 @@ private:
     void dragTo(const QPointF &at);
     void showDragShape(const QPointF &at, Qt::KeyboardModifiers modifiers);
     LineTime timeAt(qreal x) const;
+    bool isAtLevel(const QPointF &at) const; ///< the trigger's
     void placeCursor(int which, const QPointF &at);
     void moveCursor(int columns);
 

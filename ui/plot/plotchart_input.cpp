@@ -20,6 +20,7 @@ constexpr int WheelStep = 120;
 constexpr double WheelZoom = 1.25;
 constexpr qreal DragZoom = 60;  ///< pixels along an axis that zoom it by e
 constexpr qreal SmallestBox = 6;
+constexpr qreal LevelGrip = 4;  ///< so near to the trigger's level it is taken hold of
 
 } // namespace
 
@@ -28,6 +29,16 @@ LineTime PlotChart::timeAt(qreal x) const
     const TimeView now = view();
     const QRectF area = plotArea();
     return now.timeAt((x - area.left()) / area.width() * now.columns);
+}
+
+bool PlotChart::isAtLevel(const QPointF &at) const
+{
+    if (!m_trigger.isOn || !m_trigger.hasLevel)
+        return false;
+    const QRectF area = plotArea();
+    const AxisRange &range = m_scales.range(m_trigger.unit);
+    const qreal y = area.bottom() - (m_trigger.level - range.minimum) / range.span() * area.height();
+    return area.contains(at) && std::abs(at.y() - y) <= LevelGrip;
 }
 
 int PlotChart::axisAt(const QPointF &at) const
@@ -139,6 +150,8 @@ void PlotChart::mousePressEvent(QMouseEvent *event)
     } else if (isInside && cursor >= 0) {
         m_dragged = cursor;
         beginDrag(Drag::Cursor, at);
+    } else if (isAtLevel(at)) {
+        beginDrag(Drag::Level, at);
     } else if (const int axis = axisAt(at); axis >= 0) {
         m_dragged = axis;
         beginDrag(Drag::Values, at);
@@ -165,6 +178,12 @@ void PlotChart::dragTo(const QPointF &at)
         break;
     }
     case Drag::Cursor: placeCursor(m_dragged, at); break;
+    case Drag::Level: {
+        const AxisRange &range = m_scales.range(m_trigger.unit);
+        const qreal y = std::clamp(at.y(), area.top(), area.bottom());
+        m_trigger.level = range.minimum + (area.bottom() - y) / area.height() * range.span();
+        break;
+    }
     case Drag::Values: { // up: closer, around the middle
         for (PlotScales::Scale *scale : scalesOf(m_dragged)) {
             const AxisRange &range = scale->scaler.range();
@@ -204,7 +223,9 @@ void PlotChart::mouseReleaseEvent(QMouseEvent *event)
         return;
     const Drag drag = m_drag;
     m_drag = Drag::None;
-    if (drag == Drag::Box)
+    if (drag == Drag::Level && m_wasMoved)
+        emit triggerLevelChosen(m_trigger.level);
+    else if (drag == Drag::Box)
         zoomToBox(QRectF(m_dragFrom, event->position()).normalized().intersected(plotArea()));
     else if (drag == Drag::Pan && !m_wasMoved && m_cursors.isOn && event->button() == Qt::LeftButton)
         placeCursor(m_cursors.active, event->position());
@@ -223,7 +244,8 @@ void PlotChart::showDragShape(const QPointF &at, Qt::KeyboardModifiers modifiers
         setCursor(Qt::SplitHCursor);
     else if (m_drag == Drag::Pan && !m_window->isLive())
         setCursor(Qt::ClosedHandCursor);
-    else if (m_drag == Drag::Values || (m_drag == Drag::None && axisAt(at) >= 0))
+    else if (m_drag == Drag::Level || m_drag == Drag::Values
+             || (m_drag == Drag::None && (isAtLevel(at) || axisAt(at) >= 0)))
         setCursor(Qt::SizeVerCursor);
     else if (m_drag == Drag::Times || (m_drag == Drag::None && at.y() > area.bottom()))
         setCursor(Qt::SizeHorCursor);
