@@ -319,6 +319,8 @@ private:
             qWarning("the command did not end");
             return false;
         }
+        if (!*outcome)
+            qInfo("%s", qPrintable(outcome->error().text)); // what the failure behind this is about
         return outcome->has_value();
     }
 
