@@ -83,7 +83,7 @@ endforeach()
 
 if(WINDOW) # what the desktop entry starts and shows is there
     file(STRINGS "${prefix}/share/applications/dynascope.desktop" lines)
-    foreach(line "Exec=dynascope" "Icon=dynascope")
+    foreach(line "Exec=dynascope %F" "Icon=dynascope")
         if(NOT line IN_LIST lines)
             message(FATAL_ERROR "The desktop entry has no line ${line}")
         endif()
