@@ -82,6 +82,7 @@ private slots:
     void selectsAndLocks();
     void glances();
     void followsLive();
+    void standsAboveWhereItIsNarrow();
     void closesWhileItReads();
     void spellsTimes_data();
     void spellsTimes();
@@ -199,6 +200,18 @@ void TestReplayWindow::followsLive()
     QVERIFY(view.to() < RecordingBegin + 2s + 100ms);
     room.plots().setLive(false);
     QVERIFY(room.plots().timeWindow().pausedAt() > RecordingBegin + 3900ms); // but it can be gone to
+}
+
+void TestReplayWindow::standsAboveWhereItIsNarrow()
+{
+    Room room(m_path);
+    room.window->resize(1400, 800);
+    const auto *table = room.window->findChild<TablePanel *>();
+    QTRY_VERIFY(table->geometry().right() <= room.plots().geometry().left());
+    room.window->resize(900, 700);
+    QTRY_VERIFY(table->geometry().bottom() <= room.plots().geometry().top());
+    room.window->resize(1400, 800);
+    QTRY_VERIFY(table->geometry().right() <= room.plots().geometry().left());
 }
 
 void TestReplayWindow::closesWhileItReads()

@@ -36,6 +36,7 @@ const QString GeometryKey = QStringLiteral("replay/geometry");
 const QString OuterKey = QStringLiteral("replay/outer");
 const QString InnerKey = QStringLiteral("replay/inner");
 
+constexpr int NarrowWidth = 1180; ///< pixels
 constexpr int SaidFor = 8000; ///< ms
 constexpr std::size_t PlottedFirst = 8; ///< traces
 
@@ -104,7 +105,9 @@ ReplayWindow::ReplayWindow(Session &session, Monitor &monitor, Replayer &replaye
     const QSettings settings;
     restoreGeometry(settings.value(GeometryKey).toByteArray());
     m_outer->restoreState(settings.value(OuterKey).toByteArray());
-    m_inner->restoreState(settings.value(InnerKey).toByteArray());
+    const Qt::Orientation fitting = m_inner->orientation();
+    if (m_inner->restoreState(settings.value(InnerKey).toByteArray()) && m_inner->orientation() != fitting)
+        m_inner->setOrientation(fitting); // it was of another width
     if (const std::vector<Device *> devices = session.devices(); !devices.empty())
         m_tree->setCurrentIndex(m_devices->indexOf(devices.front()));
     showRecording();
@@ -254,6 +257,17 @@ void ReplayWindow::openDashboard()
 void ReplayWindow::showRecording()
 {
     m_said->setText(recordingText(m_replayer));
+}
+
+/// Where table and plots have no room beside each other, one stands above the other.
+void ReplayWindow::resizeEvent(QResizeEvent *event)
+{
+    QMainWindow::resizeEvent(event);
+    const Qt::Orientation fitting = width() < NarrowWidth ? Qt::Vertical : Qt::Horizontal;
+    if (m_inner->orientation() == fitting)
+        return;
+    m_inner->setOrientation(fitting);
+    m_inner->setSizes({1, 1}); // halves
 }
 
 void ReplayWindow::closeEvent(QCloseEvent *event)
