@@ -32,6 +32,15 @@ int milliseconds(LineTime time)
     return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(std::clamp(time, 0ns, Longest)).count());
 }
 
+/// Its key is told, too.
+void setLook(QAction &action, const QString &iconName, const QString &text)
+{
+    action.setIcon(icon(iconName));
+    action.setText(text);
+    action.setToolTip(QStringLiteral("%1 (%2)").arg(QString(text).remove(u'&'),
+                                                    action.shortcut().toString(QKeySequence::NativeText)));
+}
+
 } // namespace
 
 ReplayBar::ReplayBar(Replayer &replayer, QWidget *parent)
@@ -102,12 +111,11 @@ ReplayBar::ReplayBar(Replayer &replayer, QWidget *parent)
 
 QAction *ReplayBar::add(const QString &name, const QString &iconName, const QString &text, const QString &keys)
 {
-    auto *action = new QAction(icon(iconName), text, this);
+    auto *action = new QAction(this);
     action->setObjectName(name);
     action->setShortcut(QKeySequence(keys));
     action->setAutoRepeat(false);
-    action->setToolTip(QStringLiteral("%1 (%2)").arg(QString(text).remove(u'&'),
-                                                     action->shortcut().toString(QKeySequence::NativeText)));
+    setLook(*action, iconName, text);
     return action;
 }
 
@@ -164,10 +172,7 @@ void ReplayBar::showPosition()
 void ReplayBar::showState()
 {
     const bool isPlaying = m_replayer.clock().isPlaying();
-    m_play->setIcon(icon(isPlaying ? QStringLiteral("pause") : QStringLiteral("play")));
-    m_play->setText(isPlaying ? tr("&Pause") : tr("&Play"));
-    m_play->setToolTip(QStringLiteral("%1 (%2)").arg(m_play->text().remove(u'&'),
-                                                     m_play->shortcut().toString(QKeySequence::NativeText)));
+    setLook(*m_play, isPlaying ? QStringLiteral("pause") : QStringLiteral("play"), isPlaying ? tr("&Pause") : tr("&Play"));
     const auto speed = std::ranges::find(Speeds, m_replayer.clock().speed());
     m_speed->setCurrentIndex(static_cast<int>(speed - Speeds.begin()));
 }
