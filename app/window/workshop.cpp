@@ -87,6 +87,7 @@ ReplayRoom *Workshop::openRecording(const QString &path)
     auto opened = ReplayRoom::open(m_catalog, path, m_historyBudget);
     if (!opened) {
         m_window->say(MessageKind::Error, opened.error().text);
+        m_window->show(); // hidden where only recordings were asked for: nobody would see it
         return nullptr;
     }
     ReplayRoom *room = m_rooms.emplace_back(std::move(*opened)).get();
