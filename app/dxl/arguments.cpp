@@ -31,12 +31,12 @@ std::optional<std::int64_t> number(const QString &text)
     return negative ? -value : value;
 }
 
+} // namespace
+
 tl::unexpected<Error> wrong(const QString &text)
 {
     return failure(ErrorKind::InvalidArgument, text);
 }
-
-} // namespace
 
 QString RegisterArgument::text() const
 {

@@ -9,6 +9,9 @@
 /// The small languages of the command line. Pure; errors are InvalidArgument and quote what was given.
 namespace dynascope::dxl {
 
+/// What was typed can't be: InvalidArgument.
+tl::unexpected<Error> wrong(const QString &text);
+
 /// Bits per second. Devices begin at 9600; whoever types less means the register's index of a rate, and would wait long.
 constexpr int LowestBaudRate = 1200;
 constexpr int HighestBaudRate = 100'000'000;

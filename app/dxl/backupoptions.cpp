@@ -11,11 +11,6 @@
 namespace dynascope::dxl {
 namespace {
 
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
-
 Result<std::vector<std::uint8_t>> idsOf(const std::string &text)
 {
     return parseIdList(QString::fromStdString(text));

@@ -10,11 +10,6 @@
 namespace dynascope::dxl {
 namespace {
 
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
-
 } // namespace
 
 struct CommissionArguments::Typed {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/composepacket.h"
 
+#include "app/dxl/arguments.h"
 #include "core/protocol/crc16.h"
 #include "core/protocol/requests.h"
 
@@ -15,11 +16,6 @@ namespace {
 constexpr std::size_t LengthAt = 5;
 constexpr std::size_t CrcSize = 2;
 constexpr int LargestWord = 0xFFFF;
-
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
 
 /// Takes words one by one; the first that is wrong ends it, and the reason is kept.
 class Words

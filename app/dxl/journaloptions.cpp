@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/journaloptions.h"
 
+#include "app/dxl/arguments.h"
 #include "core/session/journal/journalentry.h"
 
 #include <CLI/CLI.hpp>
@@ -9,11 +10,6 @@
 
 namespace dynascope::dxl {
 namespace {
-
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
 
 /// "7", "5-9", "5-": that one and all behind it.
 Result<JournalOptions::Range> parseRange(const QString &word)

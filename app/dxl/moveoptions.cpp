@@ -12,11 +12,6 @@
 namespace dynascope::dxl {
 namespace {
 
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
-
 /// "1=5", or ranges of one length: "1-3=2-4".
 Result<void> addIds(const QString &word, std::vector<std::pair<int, int>> &ids)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/options.h"
 
+#include "app/dxl/arguments.h"
 #include "app/dxl/composepacket.h"
 #include "app/dxl/typed.h"
 #include "core/session/scanner.h"
@@ -10,11 +11,6 @@
 namespace dynascope::dxl {
 
 namespace {
-
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
 
 Result<void> understandLine(Options &options, const Typed &typed)
 {

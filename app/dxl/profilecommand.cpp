@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A robot's profile: saved from the bus, compared with it, applied to it. What that means is in core/session/profile.
 #include "app/dxl/commands.h"
+#include "app/dxl/arguments.h"
 #include "app/dxl/directjob.h"
 #include "app/dxl/profilereport.h"
 #include "app/dxl/target.h"
@@ -18,11 +19,6 @@ namespace dynascope::dxl {
 namespace {
 
 constexpr char NothingWritten[] = "; nothing was written";
-
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
 
 /// Which of the profile's joints are meant.
 Result<std::set<std::size_t>> selected(const Work &work, const Profile &profile)

@@ -10,7 +10,7 @@ namespace dynascope::dxl {
 namespace {
 
 /// What is to be read of one device, and what came of it.
-struct Reading {
+struct RegisterRead {
     Device *device = nullptr;
     std::vector<const Field *> fields; ///< nullptr where an address was given
     std::vector<Result<Bytes>> values; ///< as many as could be asked for
@@ -26,11 +26,11 @@ struct Reading {
 
 /// One register of all devices, in a group read where they have it at the same place; who failed in the group is asked
 /// alone.
-Result<void> readRegister(const Work &work, std::vector<Reading> &readings, std::size_t i)
+Result<void> readRegister(const Work &work, std::vector<RegisterRead> &readings, std::size_t i)
 {
-    std::vector<Reading *> asked;
+    std::vector<RegisterRead *> asked;
     std::vector<Span> spans;
-    for (Reading &reading : readings) {
+    for (RegisterRead &reading : readings) {
         if (reading.silent)
             continue;
         asked.push_back(&reading);
@@ -52,7 +52,7 @@ Result<void> readRegister(const Work &work, std::vector<Reading> &readings, std:
     return {};
 }
 
-ExitCode show(const Work &work, Reading &reading)
+ExitCode show(const Work &work, RegisterRead &reading)
 {
     ExitCode code = ExitCode::Done;
     for (std::size_t i = 0; i < reading.values.size(); ++i) {
@@ -74,9 +74,9 @@ ExitCode show(const Work &work, Reading &reading)
     return code;
 }
 
-Result<Reading> readingOf(Device &device, const std::vector<RegisterArgument> &registers)
+Result<RegisterRead> readingOf(Device &device, const std::vector<RegisterArgument> &registers)
 {
-    Reading reading;
+    RegisterRead reading;
     reading.device = &device;
     for (const RegisterArgument &argument : registers) {
         const auto field = argument.isByAddress() ? Result<const Field *>(nullptr) : device.field(argument.field);
@@ -96,7 +96,7 @@ ExitCode readCommand(const Work &work)
     Targets targets = findTargets(work, registers.size(), byAddress);
     if (targets.ended)
         return targets.code;
-    std::vector<Reading> readings;
+    std::vector<RegisterRead> readings;
     for (Device &device : targets.devices) {
         auto reading = readingOf(device, registers);
         if (!reading)
@@ -110,7 +110,7 @@ ExitCode readCommand(const Work &work)
             break;
         }
     }
-    for (Reading &reading : readings) {
+    for (RegisterRead &reading : readings) {
         if (show(work, reading) != ExitCode::Done)
             code = ExitCode::Failed;
     }

@@ -13,7 +13,7 @@ namespace dynascope::dxl {
 
 namespace {
 
-using State = RestoreRow::State;
+using RowState = RestoreRow::State;
 
 /// One device, one file.
 class Restoring
@@ -57,12 +57,12 @@ private:
     void tellWhatStays() const
     {
         for (const RestoreRow &row : m_plan.rows) {
-            if (row.state == State::NotCarried)
+            if (row.state == RowState::NotCarried)
                 m_work.output.note(QStringLiteral("could not be carried: %1: %2").arg(row.name, row.why));
-            else if (row.state == State::Left && row.use == BackupUse::Calibration)
+            else if (row.state == RowState::Left && row.use == BackupUse::Calibration)
                 m_work.output.note(
                     QStringLiteral("left: %1: %2; --calibration yes restores it").arg(row.name, row.why));
-            else if (row.state == State::Left && row.use == BackupUse::Place && !m_options.withIdAndBaud)
+            else if (row.state == RowState::Left && row.use == BackupUse::Place && !m_options.withIdAndBaud)
                 m_work.output.note(
                     QStringLiteral("left: %1, which is %2 in the backup; --with-id-and-baud moves the device")
                         .arg(row.name, row.wantedText));
@@ -98,7 +98,7 @@ private:
                 return can.error().kind == ErrorKind::InvalidArgument ? m_work.output.refuse(can.error())
                                                                       : fail(can.error());
         }
-        const auto count = m_plan.count(State::Differs);
+        const auto count = m_plan.count(RowState::Differs);
         if (count > 0
             && !mayGoOn(m_work, QStringLiteral("%1 registers of %2 are to be written").arg(count).arg(m_device.name())))
             return ExitCode::Usage;
@@ -153,7 +153,7 @@ private:
         QStringList lines;
         qint64 written = 0;
         for (const RestoreRow &row : m_plan.rows) {
-            if (row.state == State::Same)
+            if (row.state == RowState::Same)
                 continue;
             const SettingResult *result = resultOf(row, outcome);
             const bool isWritten = result && result->state == SettingState::Written;
@@ -167,20 +167,20 @@ private:
             if (!why.isEmpty())
                 one.add("note", why);
             registers.push_back(one);
-            if (row.state == State::Differs && (!outcome || isWritten))
+            if (row.state == RowState::Differs && (!outcome || isWritten))
                 lines << QStringLiteral("%1: %2 -> %3").arg(row.name, row.nowText, row.wantedText);
         }
         lines << QStringLiteral("%1: %2 registers %3, %4 the same")
                      .arg(m_device.name())
-                     .arg(outcome ? written : static_cast<qint64>(m_plan.count(State::Differs)))
+                     .arg(outcome ? written : static_cast<qint64>(m_plan.count(RowState::Differs)))
                      .arg(outcome ? QStringLiteral("written") : QStringLiteral("would be written"))
-                     .arg(m_plan.count(State::Same));
+                     .arg(m_plan.count(RowState::Same));
         Document document;
         document.add("id", qint64(m_device.id()))
             .add("file", m_file.file)
             .addFlag("dry_run", !outcome)
             .add("written", written)
-            .add("same", qint64(m_plan.count(State::Same)))
+            .add("same", qint64(m_plan.count(RowState::Same)))
             .add("registers", registers);
         m_work.output.result(lines.join(u'\n'), document);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/simoptions.h"
 
+#include "app/dxl/arguments.h"
 #include "core/sim/control.h"
 #include "core/sim/faulttext.h"
 
@@ -18,11 +19,6 @@ QString joined(const std::vector<std::string> &words)
     for (const std::string &word : words)
         list.append(QString::fromStdString(word));
     return list.join(u' ');
-}
-
-tl::unexpected<Error> wrong(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
 }
 
 std::string footer()

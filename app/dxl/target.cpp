@@ -5,11 +5,6 @@
 
 namespace dynascope::dxl {
 
-bool endsAll(const Error &error)
-{
-    return error.kind == ErrorKind::PortLost || error.kind == ErrorKind::Cancelled;
-}
-
 void showDeviceFailure(const Work &work, std::uint8_t id, const Error &error)
 {
     Document document;

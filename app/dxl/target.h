@@ -22,9 +22,6 @@ struct Targets {
 /// only named.
 Targets findTargets(const Work &work, std::size_t results, bool blind = false);
 
-/// Is it not about this device, but about all? The line is gone, or somebody interrupted.
-bool endsAll(const Error &error);
-
 /// Carries `action` out on each device of the command, once it has said what it is. Failures are printed, and take a
 /// place in the JSON.
 /// `before` sees all of them first: where it fails, nothing is done.

@@ -15,6 +15,8 @@ namespace dynascope {
 /// epoch), the simulated line virtual time. Never the wall clock.
 using LineTime = std::chrono::nanoseconds;
 
+constexpr double UartTolerance = 0.03; ///< by how much two rates may differ and still be understood
+
 /// A half-duplex wire and its port. Lives on one thread; nothing here may be called from another.
 class Line
 {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/messages.h"
 
-#include <QCoreApplication>
+#include "core/bus/messagetext.h"
+
 #include <QStringList>
 
 namespace dynascope::messages {
 namespace {
-
-/// English in a program that loads no translation, as dxl. Any thread.
-struct Messages {
-    Q_DECLARE_TR_FUNCTIONS(Messages)
-};
 
 QString device(std::uint8_t id)
 {

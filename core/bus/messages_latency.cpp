@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/messages.h"
 
-#include <QCoreApplication>
+#include "core/bus/messagetext.h"
+
 #include <QFileInfo>
 
 namespace dynascope::messages {
-namespace {
-
-struct Messages {
-    Q_DECLARE_TR_FUNCTIONS(Messages)
-};
-
-} // namespace
 
 Error noLatencyTimer(const QString &line)
 {

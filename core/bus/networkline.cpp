@@ -16,10 +16,9 @@ constexpr LineTime Server = 60ms; ///< its adapter's latency (16), its gathering
 constexpr LineTime LongestAllowance = 1s; ///< whatever connecting took
 constexpr LineTime FirstLook = 100ms;     ///< a server that can't open its port ends the connection within that
 constexpr LineTime AgreementLimit = 3s;
-constexpr LineTime RateLimit = 1s;
+constexpr LineTime RatePatience = 1s;
 constexpr LineTime LongestWay = 200ms; ///< to the server and back: connecting may have taken seconds
 constexpr LineTime CancelInterval = 20ms;
-constexpr double Tolerance = 0.03; ///< what UARTs bear
 constexpr std::size_t WordsAtMost = 80;
 constexpr int DiscardAtMost = 16; ///< reads: who sends without end is not waited for
 
@@ -34,7 +33,7 @@ QString wordsIn(ByteView bytes)
 
 bool isNear(int made, int wanted)
 {
-    return std::abs(static_cast<double>(made) - wanted) <= Tolerance * wanted;
+    return std::abs(static_cast<double>(made) - wanted) <= UartTolerance * wanted;
 }
 
 } // namespace
@@ -169,7 +168,7 @@ std::optional<int> NetworkLine::request(int bitsPerSecond, const std::atomic<boo
 {
     if (!send(m_control->requestRate(bitsPerSecond)))
         return std::nullopt;
-    const LineTime deadline = now() + RateLimit + std::min(m_socket.roundTrip(), LongestWay);
+    const LineTime deadline = now() + RatePatience + std::min(m_socket.roundTrip(), LongestWay);
     while (!m_control->confirmedRate() && now() < deadline && !cancel.load(std::memory_order_acquire)) {
         m_waiting.clear(); // of the old rate
         if (!receive(m_waiting, std::min(deadline, now() + CancelInterval)))

@@ -22,6 +22,11 @@ bool mayHaveArrived(const Error &error)
     }
 }
 
+bool endsAll(const Error &error)
+{
+    return error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::Stopped || error.kind == ErrorKind::PortLost;
+}
+
 namespace {
 
 Result<Reply> single(Bus &bus, const Request &request, int retries = 2)

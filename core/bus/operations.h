@@ -9,6 +9,8 @@ namespace dynascope {
 
 /// Was it sent, and is not known whether it arrived? Nothing was heard that says so.
 bool mayHaveArrived(const Error &error);
+/// Does it end a job whatever is still to be done? Cancelled, stopped, or the port is gone.
+bool endsAll(const Error &error);
 
 struct PingReply {
     std::uint8_t id = 0;

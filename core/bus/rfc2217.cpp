@@ -107,7 +107,7 @@ void Rfc2217::feed(ByteView received, Bytes &data, Bytes &answer)
     for (const std::uint8_t byte : received) {
         switch (m_state) {
         case State::Data: this->data(byte, data); break;
-        case State::Command: command(byte, data); break;
+        case State::TelnetCommand: command(byte, data); break;
         case State::Option: option(byte, answer); break;
         case State::Sub: sub(byte); break;
         case State::SubCommand:
@@ -118,7 +118,7 @@ void Rfc2217::feed(ByteView received, Bytes &data, Bytes &answer)
             } else if (byte == Se) {
                 endOfSub();
             } else { // it was never ended: RFC 854 knows no such thing, and what follows is a command
-                m_state = State::Command;
+                m_state = State::TelnetCommand;
                 command(byte, data);
             }
             break;
@@ -129,7 +129,7 @@ void Rfc2217::feed(ByteView received, Bytes &data, Bytes &answer)
 void Rfc2217::data(std::uint8_t byte, Bytes &data)
 {
     if (byte == Iac)
-        m_state = State::Command;
+        m_state = State::TelnetCommand;
     else
         data.push_back(byte);
 }

@@ -36,7 +36,7 @@ public:
     std::optional<int> confirmedRate() const { return m_confirmed; }
 
 private:
-    enum class State { Data, Command, Option, Sub, SubCommand };
+    enum class State { Data, TelnetCommand, Option, Sub, SubCommand };
 
     void data(std::uint8_t byte, Bytes &data);
     void command(std::uint8_t byte, Bytes &data);

@@ -12,7 +12,7 @@ using messages::Shared;
 
 namespace {
 
-constexpr int FirstLook = 2, SecondLook = 4;
+constexpr int FirstReads = 2, MoreReads = 4;
 constexpr int UnsoundToDoubt = 2; ///< of the second look
 constexpr int MostSilent = 2;     ///< one answer may be lost, or come late from a busy host
 constexpr double ClockError = 0.03; ///< of a servo's clock
@@ -94,7 +94,7 @@ Result<QString> compareReads(
     std::optional<Sample> before;
     bool anyDamaged = false;
     int silent = 0;
-    for (const int reads : {FirstLook, SecondLook}) {
+    for (const int reads : {FirstReads, MoreReads}) {
         int unsound = 0;
         for (int i = 0; i < reads; ++i) {
             if (const Result<void> go = between ? between() : Result<void>(); !go)
@@ -115,7 +115,7 @@ Result<QString> compareReads(
             if (look->sample)
                 before = std::move(look->sample);
         }
-        if (unsound < (reads == FirstLook ? 1 : UnsoundToDoubt))
+        if (unsound < (reads == FirstReads ? 1 : UnsoundToDoubt))
             return QString();
     }
     return messages::sharedId(device.id, anyDamaged ? Shared::ReadsDamaged : Shared::ReadsDiffer);

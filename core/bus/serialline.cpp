@@ -18,7 +18,6 @@ constexpr LineTime Scheduling = 5ms;      ///< what a desktop may let a thread w
 constexpr LineTime UnknownAdapter = 16ms; ///< FTDI's default latency timer
 constexpr LineTime PseudoTerminal = 50ms; ///< another process answers
 constexpr int WriteTimeout = 200;         ///< ms without a byte taken: a stuck driver; STOP and closing wait as long
-constexpr double Tolerance = 0.03;        ///< what UARTs bear
 
 LineTime defaultAllowance(const QString &path)
 {
@@ -161,7 +160,7 @@ Result<void> SerialLine::setBaudRate(int bitsPerSecond)
     int made = 0;
     if (m_port->setBaudRate(bitsPerSecond)) {
         made = posix::actualBaudRate(static_cast<int>(m_port->handle())).value_or(bitsPerSecond);
-        if (std::abs(made - bitsPerSecond) <= Tolerance * bitsPerSecond) {
+        if (std::abs(made - bitsPerSecond) <= UartTolerance * bitsPerSecond) {
             m_baudRate = bitsPerSecond;
             return {};
         }

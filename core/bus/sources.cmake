@@ -12,7 +12,7 @@ target_sources(dynascope_core PRIVATE
     bus/lateanswers.cpp bus/lateanswers.h
     bus/learnedtiming.cpp bus/learnedtiming.h
     bus/line.cpp bus/line.h bus/linefactory.h bus/traits.h
-    bus/messages.cpp bus/messages.h bus/messages_latency.cpp
+    bus/messages.cpp bus/messages.h bus/messages_latency.cpp bus/messagetext.h
     bus/networkaddress.cpp bus/networkaddress_values.h
     bus/networkline.cpp bus/networkline.h bus/networklinefactory.h
     bus/operations.cpp bus/operations.h

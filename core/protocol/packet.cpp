@@ -7,7 +7,6 @@
 namespace dynascope {
 namespace {
 
-constexpr std::size_t LengthAt = 5;
 
 Bytes beginPacket(std::uint8_t id)
 {

@@ -39,6 +39,7 @@ Bytes encode(const StatusPacket &packet);
 Bytes encodeFastStatus(std::span<const FastBlock> blocks);
 
 constexpr int HeaderSize = 7;           ///< FF FF FD 00, ID, LEN
+constexpr std::size_t LengthAt = 5;     ///< where LEN begins, two bytes, little-endian
 constexpr int InstructionOverhead = 10; ///< a whole instruction packet without parameters
 constexpr int StatusOverhead = 11;      ///< a whole status packet without parameters
 constexpr int FastBlockOverhead = 4;    ///< ERR, ID, CRC around each block's data

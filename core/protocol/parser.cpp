@@ -13,7 +13,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> Header{0xFF, 0xFF, 0xFD, 0x00};
 constexpr std::size_t IdAt = 4;
-constexpr std::size_t LengthAt = 5;
 constexpr std::size_t SmallestLength = 3;       ///< INST, CRC
 constexpr std::size_t SmallestStatusLength = 4; ///< INST, ERR, CRC
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr qsizetype WriteAt = 1 << 18; ///< bytes
 
-QByteArray quoted(const QString &title)
+QByteArray csvTitle(const QString &title)
 {
     QByteArray text = title.toUtf8().replace('\n', ' ').replace('\r', ' ');
     if (text.contains(',') || text.contains('"'))
@@ -50,7 +50,7 @@ CsvSink::CsvSink(posix::RecordFile file, const RecordingHeader &header)
         m_devices[device.key] = {&device, column};
         column += device.fields.size();
         for (const RecordedField &field : device.fields)
-            m_text += ',' + quoted(columnTitle(device, field));
+            m_text += ',' + csvTitle(columnTitle(device, field));
     }
     m_text += '\n';
     m_cells.resize(column);

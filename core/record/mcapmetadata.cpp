@@ -15,10 +15,10 @@ constexpr qint64 LongestSpan = 2048;       ///< bytes: more fits into no packet'
 const QString FieldsOf = QStringLiteral("fields."); ///< and the device's number
 
 /// The texts' values by their keys, and whether all were there and in their range.
-class Reader
+class TextReader
 {
 public:
-    explicit Reader(const Texts &texts) : m_texts(texts) { }
+    explicit TextReader(const Texts &texts) : m_texts(texts) { }
 
     QString text(const char16_t *key) const
     {
@@ -110,7 +110,7 @@ Texts textsOf(const RecordingHeader &header)
 
 std::optional<RecordingHeader> headerFrom(const Texts &texts)
 {
-    Reader reader(texts);
+    TextReader reader(texts);
     RecordingHeader header;
     if (reader.number(u"version", 1, Version) != Version)
         return std::nullopt;
@@ -139,7 +139,7 @@ Texts textsOf(const RecordedDevice &device)
 
 std::optional<RecordedDevice> deviceFrom(const Texts &texts)
 {
-    Reader reader(texts);
+    TextReader reader(texts);
     RecordedDevice device;
     device.key = static_cast<quint32>(reader.number(u"device", 0, 0xFFFFFFFFLL));
     device.label = reader.text(u"label");
@@ -172,7 +172,7 @@ Texts textsOf(const ValueLayout &layout)
 
 std::optional<ValueLayout> layoutFrom(const Texts &texts)
 {
-    Reader reader(texts);
+    TextReader reader(texts);
     const auto address = static_cast<std::uint16_t>(reader.number(u"address", 0, 0xFFFF));
     const auto length = static_cast<std::uint16_t>(reader.number(u"length", 1, LongestSpan));
     const QStringList devices = reader.text(u"devices").split(u'\n');

@@ -6,14 +6,14 @@
 namespace dynascope {
 namespace {
 
-constexpr std::chrono::milliseconds LookInterval{100};
+constexpr std::chrono::milliseconds WatchInterval{100};
 
 } // namespace
 
 AlarmWatch::AlarmWatch(Session &session, Monitor &monitor, QObject *parent)
     : QObject(parent), m_session(session), m_records(monitor)
 {
-    m_timer.setInterval(LookInterval);
+    m_timer.setInterval(WatchInterval);
     connect(&m_timer, &QTimer::timeout, this, &AlarmWatch::look);
     connect(&session, &Session::deviceAdded, this, &AlarmWatch::add);
     connect(&session, &Session::deviceAboutToBeRemoved, this, &AlarmWatch::remove);

@@ -3,8 +3,7 @@
 
 #include "core/session/journal/journalwrites.h"
 #include "core/session/settings/settingsorder.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +16,6 @@ constexpr int PositionMode = 3;          ///< of Operating Mode: one turn
 constexpr int ReverseBit = 0;            ///< of Drive Mode
 constexpr int OffsetsPerTurn = 4;        ///< in that mode only offsets within a quarter of a turn count
 constexpr std::int64_t ThisProtocol = 2; ///< of Protocol Type
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Consequences", text);
-}
 
 /// One look at one write.
 class Outlook
@@ -70,7 +64,8 @@ private:
     {
         if (m_field.needsTorqueOff() && isTorqueOn())
             add(ConsequenceKind::NeedsTorqueOff,
-                tr("%1 is locked while torque is on: torque has to go off first, and what the motor carries may fall.")
+                ConsequenceText::tr(
+                    "%1 is locked while torque is on: torque has to go off first, and what the motor carries may fall.")
                     .arg(m_field.name));
     }
 
@@ -91,7 +86,8 @@ private:
             return;
         registers.insert(registers.end(), unknown.begin(), unknown.end());
         add(ConsequenceKind::Resets,
-            tr("A change of %1 puts these registers back to the defaults of the new mode.").arg(m_field.name),
+            ConsequenceText::tr("A change of %1 puts these registers back to the defaults of the new mode.")
+                .arg(m_field.name),
             std::move(registers));
     }
 
@@ -118,9 +114,11 @@ private:
         }
         const QString from = said(*position, *present), to = said(*position, after);
         const QString text =
-            turns ? tr("Present Position counts the other way round: it will say about %2 where it says %1, and goals "
-                       "mean the other direction.")
-                  : tr("Present Position will say about %2 where it says %1, %3 more, though nothing moves.");
+            turns ? ConsequenceText::tr(
+                "Present Position counts the other way round: it will say about %2 where it says %1, and goals "
+                "mean the other direction.")
+                  : ConsequenceText::tr(
+                      "Present Position will say about %2 where it says %1, %3 more, though nothing moves.");
         add(ConsequenceKind::MovesPosition,
             turns ? text.arg(from, to) : text.arg(from, to, said(*position, after - *present)),
             {{position->name, present, after}});
@@ -146,16 +144,18 @@ private:
             if (!other.isWritable() || !limitingRegisters(other).contains(m_field.name))
                 continue;
             lookAt(other, other);
-            if (const Field *present = m_table.find(Known::PresentPosition); present && isNamed(other, u"Goal Position"))
+            if (const Field *present = m_table.find(Known::PresentPosition);
+                present && isNamed(other, u"Goal Position"))
                 lookAt(*present, other);
         }
         if (beyond.empty())
             return;
         QStringList names;
         for (const ExpectedChange &one : beyond)
-            names << tr("%1 (%2)").arg(one.name, said(*m_table.find(one.name), *one.before));
+            names << ConsequenceText::tr("%1 (%2)").arg(one.name, said(*m_table.find(one.name), *one.before));
         add(ConsequenceKind::BeyondLimits,
-            tr("Beyond what will be allowed then: %1.").arg(names.join(QStringLiteral(", "))), std::move(beyond));
+            ConsequenceText::tr("Beyond what will be allowed then: %1.").arg(names.join(QStringLiteral(", "))),
+            std::move(beyond));
     }
     static bool isNamed(const Field &field, QStringView name) { return field.name == name; }
 
@@ -175,7 +175,8 @@ private:
             const EffectiveField effect = effectively(*goal);
             if (signedFromRaw(effect, *wanted) != 0)
                 add(ConsequenceKind::Turns,
-                    tr("%1 is %2: the motor runs as soon as torque is on.").arg(goal->name, said(*goal, *wanted)),
+                    ConsequenceText::tr("%1 is %2: the motor runs as soon as torque is on.")
+                        .arg(goal->name, said(*goal, *wanted)),
                     {{goal->name, now(goal->name), wanted}});
             return;
         }
@@ -188,7 +189,7 @@ private:
         if (std::abs(degrees) < SmallJump)
             return;
         add(ConsequenceKind::Jumps,
-            tr("The joint may jump by %1 as soon as torque is on: it is at %2, and its goal is %3.")
+            ConsequenceText::tr("The joint may jump by %1 as soon as torque is on: it is at %2, and its goal is %3.")
                 .arg(said(*position, *wanted - *present), said(*position, *present), said(*goal, *wanted)),
             {{position->name, present, wanted}});
     }
@@ -205,30 +206,34 @@ private:
     {
         if (isGoal(m_field) && wakesNow() && !isTorqueOn())
             add(ConsequenceKind::TorqueByGoal,
-                tr("Writing %1 turns torque on, by bit 3 of Drive Mode.").arg(m_field.name),
+                ConsequenceText::tr("Writing %1 turns torque on, by bit 3 of Drive Mode.").arg(m_field.name),
                 {{nameOf(Known::TorqueEnable).toString(), 0, 1}});
-        const bool hasBit =
-            std::ranges::find(m_field.bits, TorqueOnByGoalBit, &BitField::first) != m_field.bits.end();
+        const bool hasBit = std::ranges::find(m_field.bits, TorqueOnByGoalBit, &BitField::first) != m_field.bits.end();
         if (isField(u"Drive Mode") && hasBit && gainsBit(TorqueOnByGoalBit))
-            add(ConsequenceKind::TorqueByGoal, tr("From then on any goal that is written turns torque on."));
+            add(ConsequenceKind::TorqueByGoal,
+                ConsequenceText::tr("From then on any goal that is written turns torque on."));
     }
 
     void changesPlace()
     {
         if (isField(Known::Id))
-            add(ConsequenceKind::ChangesPlace,
-                tr("The device answers as ID %1 from then on, and no longer as its old one. If another device has that "
-                   "ID, both answer at once.").arg(m_raw));
+            add(ConsequenceKind::ChangesPlace, ConsequenceText::tr("The device answers as ID %1 from then on, and no "
+                                                                   "longer as its old one. If another device has that "
+                                                                   "ID, both answer at once.")
+                                                   .arg(m_raw));
         if (isField(Known::BaudRate)) {
             const auto rate = m_table.baudRate(static_cast<int>(m_raw));
             add(ConsequenceKind::ChangesPlace,
-                rate ? tr("The device answers at %1 bps only from then on: a port that can't do that rate will not "
-                          "find it.").arg(*rate)
-                     : tr("Nobody knows which baud rate that is: the device may not be found again."));
+                rate ? ConsequenceText::tr(
+                           "The device answers at %1 bps only from then on: a port that can't do that rate will not "
+                           "find it.")
+                           .arg(*rate)
+                     : ConsequenceText::tr("Nobody knows which baud rate that is: the device may not be found again."));
         }
         if (isField(u"Protocol Type") && m_raw != ThisProtocol)
             add(ConsequenceKind::ChangesProtocol,
-                tr("The device speaks another protocol from then on: this program will not find it again."));
+                ConsequenceText::tr(
+                    "The device speaks another protocol from then on: this program will not find it again."));
     }
 
     void answersLess()
@@ -237,10 +242,11 @@ private:
             return;
         if (m_raw == 0)
             add(ConsequenceKind::AnswersLess,
-                tr("The device answers Ping alone from then on: none of its registers can be read."));
+                ConsequenceText::tr("The device answers Ping alone from then on: none of its registers can be read."));
         else if (m_raw == 1)
             add(ConsequenceKind::AnswersLess,
-                tr("The device no longer answers writes: that one was refused shows only when it is read back."));
+                ConsequenceText::tr(
+                    "The device no longer answers writes: that one was refused shows only when it is read back."));
     }
 
     void bitsOf()
@@ -255,11 +261,12 @@ private:
         }
         if (isField(u"Shutdown") && !lost.empty())
             add(ConsequenceKind::LosesProtection,
-                tr("These errors no longer turn torque off, and the motor is unprotected against them: %1.")
+                ConsequenceText::tr(
+                    "These errors no longer turn torque off, and the motor is unprotected against them: %1.")
                     .arg(lost.join(QStringLiteral(", "))));
         if (isField(u"Startup Configuration") && !gained.empty())
             add(ConsequenceKind::StartsByItself,
-                tr("By itself, as soon as power comes and before any program runs: %1.")
+                ConsequenceText::tr("By itself, as soon as power comes and before any program runs: %1.")
                     .arg(gained.join(QStringLiteral(", "))));
     }
 
@@ -311,7 +318,9 @@ QString changeText(const ControlTable &table, const RegisterLookup &now, const E
     const auto text = [&](const std::optional<std::int64_t> &raw, const QString &unknown) {
         return raw && field ? valueText(*field, effective(*field, now), table.resolution(), *raw, units) : unknown;
     };
-    return tr("%1: %2 → %3").arg(change.name, text(change.before, tr("not read")), text(change.after, tr("its default")));
+    return ConsequenceText::tr("%1: %2 → %3")
+        .arg(change.name, text(change.before, ConsequenceText::tr("not read")),
+             text(change.after, ConsequenceText::tr("its default")));
 }
 
 } // namespace dynascope

@@ -8,14 +8,13 @@
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("GroupWrite", text);
-}
+struct GroupWriteText {
+    Q_DECLARE_TR_FUNCTIONS(GroupWrite)
+};
 
-tl::unexpected<Error> refused(const QString &text)
+tl::unexpected<Error> refusedWrite(const QString &text)
 {
-    return failure(ErrorKind::InvalidArgument, tr("%1; nothing was written").arg(text));
+    return failure(ErrorKind::InvalidArgument, GroupWriteText::tr("%1; nothing was written").arg(text));
 }
 
 /// The registers of a stretch, each with how far in it begins.
@@ -26,9 +25,9 @@ QString meaningOf(const ControlTable &table, int address, int length)
         if (field.address >= address + length || field.end() <= address)
             continue;
         const int in = field.address - address;
-        parts << (in == 0 ? field.name : tr("%1 at %2").arg(field.name).arg(field.address));
+        parts << (in == 0 ? field.name : GroupWriteText::tr("%1 at %2").arg(field.name).arg(field.address));
     }
-    return parts.isEmpty() ? tr("no register") : parts.join(QStringLiteral(", "));
+    return parts.isEmpty() ? GroupWriteText::tr("no register") : parts.join(QStringLiteral(", "));
 }
 
 } // namespace
@@ -40,13 +39,13 @@ Result<std::vector<SpanData>> planGroupWrite(const std::vector<GroupMember> &mem
     for (const GroupMember &member : members) {
         const Field *field = member.table ? member.table->find(registerName) : nullptr;
         if (!field)
-            return refused(tr("%1 has no register %2").arg(member.name, registerName));
+            return refusedWrite(GroupWriteText::tr("%1 has no register %2").arg(member.name, registerName));
         if (!field->isWritable())
-            return refused(tr("%1: %2 can only be read").arg(member.name, field->name));
+            return refusedWrite(GroupWriteText::tr("%1: %2 can only be read").arg(member.name, field->name));
         const bool isAllowed =
             field->values.empty() || std::ranges::find(field->values, raw, &EnumValue::value) != field->values.end();
         if (raw < smallestRaw(*field) || raw > largestRaw(*field) || !isAllowed)
-            return refused(tr("%1: %2 can't be %3").arg(member.name, field->name).arg(raw));
+            return refusedWrite(GroupWriteText::tr("%1: %2 can't be %3").arg(member.name, field->name).arg(raw));
         writes.push_back({member.id, field->address, bytesFromRaw(*field, raw)});
     }
     return writes;
@@ -67,7 +66,7 @@ Result<void> checkSameMeaning(const std::vector<GroupMember> &members, int addre
         const Field *one = first->table->at(address), *other = member.table->at(address);
         const bool isAsLong = !one || !other || one->size == other->size || one->size >= length;
         if (here != there || !isAsLong) {
-            return refused(tr("%1:%2 is %3 of %4, and %5 of %6: write to each by itself")
+            return refusedWrite(GroupWriteText::tr("%1:%2 is %3 of %4, and %5 of %6: write to each by itself")
                                .arg(address)
                                .arg(length)
                                .arg(here, first->name, there, member.name));

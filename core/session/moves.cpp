@@ -3,19 +3,13 @@
 
 #include "core/session/deviceplace.h"
 #include "core/session/linesession.h"
+#include "core/session/texts.h"
 #include "core/table/catalog.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Moves", text);
-}
 
 Found foundAt(const MoveDevice &device, const MovePlace &place)
 {
@@ -61,9 +55,10 @@ Result<void> takeTables(MovePlan &plan, const Catalog &catalog)
         if (!table && !moves) // it stays: nobody has to know its model
             continue;
         if (!table) {
-            return failure(ErrorKind::InvalidArgument,
-                           tr("the plan that was left names model %1, which has no control table; nothing was written")
-                               .arg(device.place.modelNumber));
+            return failure(
+                ErrorKind::InvalidArgument,
+                MoveText::tr("the plan that was left names model %1, which has no control table; nothing was written")
+                    .arg(device.place.modelNumber));
         }
         const MoveDevice known =
             moveDevice(foundAt(device, {device.place.baudRate, device.place.id}), *table, device.place.name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/profilerun.h"
 
+#include "core/bus/operations.h"
 #include "core/session/settings/settingsjournal.h"
 #include "core/table/catalog.h"
 
@@ -32,11 +33,6 @@ QString problemOf(const JointApply &joint, const SettingsOutcome &outcome)
 bool isLookingInVain(const Error &error)
 {
     return error.kind == ErrorKind::Stopped || error.kind == ErrorKind::PortLost;
-}
-
-bool endsAll(const Error &error)
-{
-    return isLookingInVain(error) || error.kind == ErrorKind::Cancelled;
 }
 
 } // namespace

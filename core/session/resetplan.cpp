@@ -2,27 +2,16 @@
 #include "core/session/resetplan.h"
 
 #include "core/session/linesession.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commands", text);
-}
-
 MovePlace placed(const DevicePlace &place)
 {
     return {place.baudRate, place.id};
-}
-
-tl::unexpected<Error> refused(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
 }
 
 Result<void> checkEnds(const std::vector<ResetMove> &resets, const std::vector<MovePlace> &others)
@@ -31,13 +20,15 @@ Result<void> checkEnds(const std::vector<ResetMove> &resets, const std::vector<M
         const MovePlace end = placed(resets[i].after);
         for (std::size_t other = 0; other < i; ++other) {
             if (placed(resets[other].after) == end)
-                return refused(
-                    tr("%1 and %2 would both end at %3: keep their IDs, or reset one, give it another ID, and "
-                       "then reset the next")
+                return failure(ErrorKind::InvalidArgument, 
+                    CommandText::tr(
+                        "%1 and %2 would both end at %3: keep their IDs, or reset one, give it another ID, and "
+                        "then reset the next")
                         .arg(resets[other].place.name, resets[i].place.name, placeText(end)));
         }
         if (std::ranges::find(others, end) != others.end())
-            return refused(tr("%1 would end at %2, where another device is").arg(resets[i].place.name, placeText(end)));
+            return failure(ErrorKind::InvalidArgument, CommandText::tr("%1 would end at %2, where another device is")
+                               .arg(resets[i].place.name, placeText(end)));
     }
     return {};
 }
@@ -59,7 +50,8 @@ Result<std::vector<std::size_t>> planResets(const std::vector<ResetMove> &resets
         };
         const auto next = std::ranges::find_if(waiting, isFree);
         if (next == waiting.end())
-            return refused(tr("Each of these would end where another one is: reset them one after the other"));
+            return failure(ErrorKind::InvalidArgument, 
+                CommandText::tr("Each of these would end where another one is: reset them one after the other"));
         order.push_back(*next);
         waiting.erase(next);
     }
@@ -72,13 +64,15 @@ Result<std::vector<Device *>> resetOrder(const std::vector<Device *> &devices, R
     std::vector<MovePlace> others;
     for (const Device *device : devices) {
         if (!device->table().find(Known::Id) || !device->table().find(Known::BaudRate))
-            return failure(ErrorKind::NotSupported,
-                           tr("It isn't known where %1 would be after a reset").arg(device->displayName()));
+            return failure(
+                ErrorKind::NotSupported,
+                CommandText::tr("It isn't known where %1 would be after a reset").arg(device->displayName()));
         if (option == ResetOption::All && device->table().description().axes > 1)
             return failure(
                 ErrorKind::NotSupported,
-                tr("%1 is one of two axes, and it isn't known which ID this reset gives it; keep the ID, then "
-                   "change it")
+                CommandText::tr(
+                    "%1 is one of two axes, and it isn't known which ID this reset gives it; keep the ID, then "
+                    "change it")
                     .arg(device->displayName()));
         resets.push_back({placeOf(*device), placeAfterReset(*device, option)});
     }

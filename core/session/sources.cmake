@@ -91,6 +91,7 @@ target_sources(dynascope_core PRIVATE
     session/settingscommands.cpp session/settingscommands.h
     session/spanmeasure.cpp session/spanmeasure.h
     session/stopcontrol.cpp session/stopcontrol.h
+    session/texts.h
     session/trigger.cpp session/trigger.h
     session/vitals.cpp session/vitals.h
     session/volatilespan.cpp session/volatilespan.h

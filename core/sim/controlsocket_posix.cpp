@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/sim/controlsocket.h"
 
+#include "core/sim/systemfailure_posix.h"
+
 #include <QFile>
 #include <QFileInfo>
 
@@ -21,12 +23,6 @@ namespace {
 constexpr int Backlog = 8;
 constexpr int Patience = 10'000;                     ///< ms, for an answer
 constexpr qsizetype LongestAnswer = 16 * 1024 * 1024; ///< bytes
-
-tl::unexpected<Error> systemFailure(const QString &what)
-{
-    const QString why = QString::fromLocal8Bit(std::strerror(errno));
-    return failure(ErrorKind::PortUnsuitable, QStringLiteral("%1: %2").arg(what, why));
-}
 
 /// Ours alone: nobody else may put a socket of that name there.
 bool isPrivateFolder(const QByteArray &path)
@@ -163,7 +159,8 @@ Result<QByteArray> askControl(const QString &linkOrTerminal, const QByteArray &l
     }
     const QByteArray sent = line + '\n';
     QByteArray answer;
-    bool good = ::send(descriptor, sent.constData(), static_cast<std::size_t>(sent.size()), MSG_NOSIGNAL) == sent.size();
+    bool good =
+        ::send(descriptor, sent.constData(), static_cast<std::size_t>(sent.size()), MSG_NOSIGNAL) == sent.size();
     while (good && !answer.endsWith('\n') && answer.size() < LongestAnswer) {
         pollfd waited{descriptor, POLLIN, 0};
         std::array<char, 65536> chunk{};

@@ -10,7 +10,7 @@
 namespace dynascope::sim {
 namespace {
 
-using Kind = ReplyFault::Kind;
+using Fault = ReplyFault::Kind;
 
 constexpr qsizetype LongestText = 4096;
 constexpr std::size_t MostReplyFaults = 256;
@@ -112,23 +112,23 @@ QString form(const char16_t *help)
 enum class Takes { Share, Id, Number, Bytes, Time };
 struct ReplyWord {
     const char16_t *name;
-    Kind kind;
+    Fault kind;
     Takes takes;
     const char16_t *help;
 };
 constexpr std::array ReplyWords{
-    ReplyWord{u"drop", Kind::Lost, Takes::Share, u"drop[:IDS][=SHARE]        replies are lost: drop:3=0.02"},
-    ReplyWord{u"damage", Kind::Damaged, Takes::Share, u"damage[:IDS][=SHARE]      a bit of a reply is turned"},
-    ReplyWord{u"cut", Kind::Cut, Takes::Bytes,
+    ReplyWord{u"drop", Fault::Lost, Takes::Share, u"drop[:IDS][=SHARE]        replies are lost: drop:3=0.02"},
+    ReplyWord{u"damage", Fault::Damaged, Takes::Share, u"damage[:IDS][=SHARE]      a bit of a reply is turned"},
+    ReplyWord{u"cut", Fault::Cut, Takes::Bytes,
               u"cut[:IDS][=BYTES]         of a reply only so many bytes come; any number of them without BYTES"},
-    ReplyWord{u"late", Kind::Late, Takes::Time, u"late[:IDS]=TIME           replies come later: late=20ms@0.1"},
-    ReplyWord{u"twice", Kind::Twice, Takes::Time, u"twice[:IDS]=TIME          replies come again, so long after their end"},
-    ReplyWord{u"reboot", Kind::Reboot, Takes::Share, u"reboot[:IDS][=SHARE]      the device reboots instead of answering"},
-    ReplyWord{u"wrong-id", Kind::WrongId, Takes::Id, u"wrong-id[:IDS]=ID         replies carry another ID"},
-    ReplyWord{u"wrong-length", Kind::WrongLength, Takes::Number,
+    ReplyWord{u"late", Fault::Late, Takes::Time, u"late[:IDS]=TIME           replies come later: late=20ms@0.1"},
+    ReplyWord{u"twice", Fault::Twice, Takes::Time, u"twice[:IDS]=TIME          replies come again, so long after their end"},
+    ReplyWord{u"reboot", Fault::Reboot, Takes::Share, u"reboot[:IDS][=SHARE]      the device reboots instead of answering"},
+    ReplyWord{u"wrong-id", Fault::WrongId, Takes::Id, u"wrong-id[:IDS]=ID         replies carry another ID"},
+    ReplyWord{u"wrong-length", Fault::WrongLength, Takes::Number,
               u"wrong-length[:IDS]=BYTES  replies carry so many bytes of data more, or fewer (-2)"},
-    ReplyWord{u"stray", Kind::StrayBefore, Takes::Id, u"stray[:IDS]=ID            a valid reply of another ID comes first"},
-    ReplyWord{u"garbage", Kind::NoiseBefore, Takes::Bytes, u"garbage[:IDS]=BYTES       so many stray bytes come first"},
+    ReplyWord{u"stray", Fault::StrayBefore, Takes::Id, u"stray[:IDS]=ID            a valid reply of another ID comes first"},
+    ReplyWord{u"garbage", Fault::NoiseBefore, Takes::Bytes, u"garbage[:IDS]=BYTES       so many stray bytes come first"},
 };
 
 Result<void> addReplyFault(const Word &word, const ReplyWord &means, LineFaults &faults)
@@ -150,7 +150,7 @@ Result<void> addReplyFault(const Word &word, const ReplyWord &means, LineFaults 
         break;
     case Takes::Id: fault.amount = number(0, MaximumId); break;
     case Takes::Number: fault.amount = number(-MostBytes, MostBytes); break;
-    case Takes::Bytes: fault.amount = !word.hasValue && means.kind == Kind::Cut ? -1 : number(0, MostBytes); break;
+    case Takes::Bytes: fault.amount = !word.hasValue && means.kind == Fault::Cut ? -1 : number(0, MostBytes); break;
     case Takes::Time: {
         const auto time = parseDuration(word.value);
         good = time.has_value();

@@ -4,7 +4,7 @@
 namespace dynascope::sim {
 namespace {
 
-struct Kind {
+struct ErrorBit {
     const char16_t *part; ///< of the bit's name
     const char16_t *name;
     std::uint8_t bit;     ///< where a table doesn't name its bits: those of the X series
@@ -12,7 +12,7 @@ struct Kind {
 };
 
 // In the order of HardwareFault. Error Code has two numbers for the voltage: too low is the usual one.
-constexpr std::array<Kind, HardwareFaultCount> Kinds{{
+constexpr std::array<ErrorBit, HardwareFaultCount> ErrorKinds{{
     {u"voltage", u"Input voltage", 0x01, 2},
     {u"hall", u"Hall sensor", 0x02, 14},
     {u"overheat", u"Overheating", 0x04, 4},
@@ -21,7 +21,7 @@ constexpr std::array<Kind, HardwareFaultCount> Kinds{{
     {u"overload", u"Overload", 0x20, 5},
 }};
 
-std::uint8_t bitOf(const Field &status, const Kind &kind)
+std::uint8_t bitOf(const Field &status, const ErrorBit &kind)
 {
     if (status.bits.empty())
         return kind.bit;
@@ -38,8 +38,8 @@ HardwareErrors::HardwareErrors(RegisterFile &registers)
     : m_registers(registers)
 {
     const Field *status = registers.field(Reg::HardwareErrorStatus);
-    for (std::size_t i = 0; status && i < Kinds.size(); ++i)
-        m_bits[i] = bitOf(*status, Kinds[i]);
+    for (std::size_t i = 0; status && i < ErrorKinds.size(); ++i)
+        m_bits[i] = bitOf(*status, ErrorKinds[i]);
 }
 
 bool HardwareErrors::knows(HardwareFault fault) const
@@ -54,7 +54,7 @@ bool HardwareErrors::latch(HardwareFault fault)
     if (!m_registers.has(Reg::ErrorCode))
         return false;
     if (m_registers.get(Reg::ErrorCode) == 0) // the first one stays
-        m_registers.set(Reg::ErrorCode, Kinds[static_cast<std::size_t>(fault)].code);
+        m_registers.set(Reg::ErrorCode, ErrorKinds[static_cast<std::size_t>(fault)].code);
     return true;
 }
 
@@ -79,9 +79,9 @@ QStringList HardwareErrors::names() const
 {
     QStringList latched;
     const std::int64_t status = m_registers.get(Reg::HardwareErrorStatus);
-    for (std::size_t i = 0; i < Kinds.size(); ++i) {
+    for (std::size_t i = 0; i < ErrorKinds.size(); ++i) {
         if (status & m_bits[i])
-            latched.append(QString::fromUtf16(Kinds[i].name));
+            latched.append(QString::fromUtf16(ErrorKinds[i].name));
     }
     if (const std::int64_t code = m_registers.get(Reg::ErrorCode))
         latched.append(QStringLiteral("Error Code %1").arg(code));

@@ -10,7 +10,6 @@
 namespace dynascope::sim {
 namespace {
 
-constexpr int VelocityMode = 1, PositionMode = 3;
 constexpr int WheelMode = 1, JointMode = 2; ///< of Control Mode
 constexpr int Unlimited = std::numeric_limits<int>::max();
 constexpr std::int64_t SignBit = 1024;      ///< of a signed quantity in an unsigned register

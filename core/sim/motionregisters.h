@@ -7,6 +7,8 @@
 
 namespace dynascope::sim {
 
+constexpr int VelocityMode = 1, PositionMode = 3; ///< of Operating Mode
+
 /// Between a servo's registers and its joint: settings and goals one way, the Present registers the other, and the
 /// rules of Present Position (Homing Offset, one turn or many). Owned by the servo, whose registers it works on.
 class MotionRegisters

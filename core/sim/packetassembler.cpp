@@ -10,7 +10,6 @@ namespace dynascope::sim {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> Header{0xFF, 0xFF, 0xFD, 0x00};
-constexpr std::size_t LengthAt = 5;
 
 bool mayBeginPacket(ByteView bytes)
 {

@@ -6,7 +6,7 @@
 namespace dynascope::sim {
 namespace {
 
-std::int64_t milliseconds(LineTime time)
+std::int64_t wholeMilliseconds(LineTime time)
 {
     return std::chrono::duration_cast<std::chrono::milliseconds>(time).count();
 }
@@ -46,7 +46,7 @@ Supply &Power::supplyFor(Servo &servo, LineTime now)
             return *supply;
     }
     m_supplies.push_back(std::make_unique<Supply>(usual, m_ohms));
-    m_supplies.back()->beginAt(milliseconds(now));
+    m_supplies.back()->beginAt(wholeMilliseconds(now));
     m_supplies.back()->setOn(m_on);
     return *m_supplies.back();
 }
@@ -62,13 +62,13 @@ void Power::connect(Servo &servo, LineTime now)
 void Power::beginAt(LineTime now)
 {
     for (const auto &supply : m_supplies)
-        supply->beginAt(milliseconds(now));
+        supply->beginAt(wholeMilliseconds(now));
 }
 
 void Power::advanceTo(LineTime now)
 {
     for (const auto &supply : m_supplies)
-        supply->advance(supply->joints(), milliseconds(now));
+        supply->advance(supply->joints(), wholeMilliseconds(now));
 }
 
 void Power::setVoltage(double volts)

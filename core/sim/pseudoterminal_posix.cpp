@@ -2,6 +2,7 @@
 #include "core/sim/pseudoterminal.h"
 
 #include "core/sim/ptybaud.h"
+#include "core/sim/systemfailure_posix.h"
 
 #include <QFile>
 
@@ -21,12 +22,6 @@ namespace dynascope::sim {
 namespace {
 
 constexpr int DefaultBaudRate = 57600;
-
-tl::unexpected<Error> systemFailure(const QString &what)
-{
-    const QString why = QString::fromLocal8Bit(std::strerror(errno));
-    return failure(ErrorKind::PortUnsuitable, QStringLiteral("%1: %2").arg(what, why));
-}
 
 bool makeRaw(int descriptor)
 {

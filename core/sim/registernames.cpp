@@ -10,7 +10,7 @@ struct Name {
     const char16_t *otherwise = nullptr;
 };
 
-constexpr std::array<Name, static_cast<std::size_t>(Reg::Count)> Names{{
+constexpr std::array<Name, static_cast<std::size_t>(Reg::Count)> RegisterNames{{
     {u"Model Number"},
     {u"Firmware Version"},
     {u"ID"},
@@ -77,7 +77,7 @@ constexpr std::array<Name, static_cast<std::size_t>(Reg::Count)> Names{{
 
 const Field *findRegister(const ControlTable &table, Reg reg)
 {
-    const Name &names = Names[static_cast<std::size_t>(reg)];
+    const Name &names = RegisterNames[static_cast<std::size_t>(reg)];
     const Field *field = table.find(QStringView(names.name));
     if (!field && names.otherwise)
         field = table.find(QStringView(names.otherwise));

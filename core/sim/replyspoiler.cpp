@@ -9,7 +9,7 @@
 namespace dynascope::sim {
 namespace {
 
-using Kind = ReplyFault::Kind;
+using Fault = ReplyFault::Kind;
 
 PacketForm formOf(const Transmission &sent)
 {
@@ -105,37 +105,37 @@ void ReplySpoiler::apply(const ReplyFault &fault, Spoiling &reply)
 {
     const PacketForm form = formOf(reply.sent);
     const auto amount = static_cast<std::size_t>(std::max(fault.amount, 0));
-    if (reply.sent.bytes.empty() && fault.kind < Kind::StrayBefore)
+    if (reply.sent.bytes.empty() && fault.kind < Fault::StrayBefore)
         return; // lost already
     Bytes before;
     switch (fault.kind) {
-    case Kind::Reboot:
+    case Fault::Reboot:
         reply.reboots = true;
         reply.cut(0, false);
         break;
-    case Kind::Lost: reply.cut(0, fault.atAdapter); break;
-    case Kind::WrongId:
+    case Fault::Lost: reply.cut(0, fault.atAdapter); break;
+    case Fault::WrongId:
         reply.status.id = static_cast<std::uint8_t>(fault.amount);
         reply.encodeAgain();
         reply.sent.damaged = true; // not the one that the next in a group read waits for
         break;
-    case Kind::WrongLength:
+    case Fault::WrongLength:
         reply.status.parameters.resize(
             static_cast<std::size_t>(std::max(0, static_cast<int>(reply.status.parameters.size()) + fault.amount)));
         reply.encodeAgain();
         reply.sent.damaged =
             reply.sent.damaged || form != PacketForm::Status; // the next doesn't find the place of its block
         break;
-    case Kind::Damaged:
+    case Fault::Damaged:
         if (damagePacket(reply.heard, form, fault.damage, m_chance) && !fault.atAdapter) {
             reply.sent.bytes = reply.heard;
             reply.sent.damaged = true;
         }
         break;
-    case Kind::Cut:
+    case Fault::Cut:
         reply.cut(fault.amount < 0 ? m_chance.below(reply.sent.bytes.size()) : amount, fault.atAdapter);
         break;
-    case Kind::StrayBefore: {
+    case Fault::StrayBefore: {
         StatusPacket stray = reply.status;
         stray.id = static_cast<std::uint8_t>(fault.amount);
         for (std::uint8_t &byte : stray.parameters)
@@ -143,14 +143,14 @@ void ReplySpoiler::apply(const ReplyFault &fault, Spoiling &reply)
         reply.put(encode(stray));
         break;
     }
-    case Kind::NoiseBefore:
+    case Fault::NoiseBefore:
         before = fault.noise;
         while (fault.noise.empty() && before.size() < amount)
             before.push_back(m_chance.byte());
         reply.put(before);
         break;
-    case Kind::Late: reply.sent.lateness = std::max(reply.sent.lateness, fault.time); break;
-    case Kind::Twice: reply.again = fault.time; break;
+    case Fault::Late: reply.sent.lateness = std::max(reply.sent.lateness, fault.time); break;
+    case Fault::Twice: reply.again = fault.time; break;
     }
 }
 

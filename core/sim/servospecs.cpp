@@ -7,7 +7,7 @@
 namespace dynascope::sim {
 namespace {
 
-tl::unexpected<Error> wrong(QStringView entry, const QString &why)
+tl::unexpected<Error> wrongSpec(QStringView entry, const QString &why)
 {
     return failure(ErrorKind::InvalidArgument, QStringLiteral("\"%1\": %2").arg(entry.toString(), why));
 }
@@ -35,7 +35,7 @@ Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
     const qsizetype colon = entry.lastIndexOf(u':');
     const qsizetype at = entry.lastIndexOf(u'@');
     if (at < 1 || colon < at)
-        return wrong(entry,
+        return wrongSpec(entry,
                      QStringLiteral("a device is written MODEL[/FIRMWARE]@BAUD:ID[+ID2], as in XM430-W350@57600:1"));
     const QStringView device = entry.first(at);
     const qsizetype slash = device.lastIndexOf(u'/');
@@ -45,7 +45,7 @@ Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
     if (slash >= 0)
         spec.firmware = device.sliced(slash + 1).toInt(&ok);
     if (!ok || spec.firmware < -1 || spec.firmware > 255)
-        return wrong(entry, QStringLiteral("the firmware is a number from 0 to 255"));
+        return wrongSpec(entry, QStringLiteral("the firmware is a number from 0 to 255"));
     spec.baudRate = entry.sliced(at + 1, colon - at - 1).toInt(&ok);
     if (!ok)
         spec.baudRate = 0; // no model has it: the message lists those it has
@@ -55,9 +55,9 @@ Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
     if (ids.size() > 1)
         spec.secondId = ids[1].toInt(&secondOk);
     if (!ok || !secondOk || ids.size() > 2 || !isId(spec.id) || (ids.size() == 2 && !isId(spec.secondId)))
-        return wrong(entry, QStringLiteral("the ID is a number from 0 to %1").arg(MaximumId));
+        return wrongSpec(entry, QStringLiteral("the ID is a number from 0 to %1").arg(MaximumId));
     if (const auto good = checkServoSpec(spec, catalog); !good)
-        return wrong(entry, good.error().text);
+        return wrongSpec(entry, good.error().text);
     return spec;
 }
 

@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::array Goals{Reg::GoalPwm, Reg::GoalCurrent, Reg::GoalVelocity, Reg::GoalPosition};
 constexpr int ReverseBit = 0, TorqueOnByGoalBit = 3; ///< of Drive Mode
-constexpr int PositionMode = 3, VelocityMode = 1;
 constexpr std::int64_t SaveHybrid = 1, HybridSaved = 2;
 
 bool hasBit(const Field &field, int number)

@@ -43,6 +43,7 @@ if(UNIX)
         sim/pseudoterminal_posix.cpp sim/pseudoterminal.h
         sim/ptybaud_posix.cpp sim/ptybaud.h
         sim/ptyserver_posix.cpp sim/ptyserver.h
+        sim/systemfailure_posix.h
     )
 endif()
 

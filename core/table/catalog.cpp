@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/table/catalog.h"
 
+#include "core/table/jsonguard.h"
 #include "core/table/rawtable.h"
 #include "core/table/tablefile.h"
 
@@ -32,13 +33,8 @@ struct Catalog::Model {
 
 namespace {
 
-tl::unexpected<Error> bad(const QString &name, const QString &text)
-{
-    return failure(ErrorKind::BadFile, QStringLiteral("%1: %2").arg(name, text));
-}
-
 /// "xm430" of "/folder/xm430.json".
-QString stem(const QString &name)
+QString fileStem(const QString &name)
 {
     QString file = name.mid(name.lastIndexOf(u'/') + 1);
     if (file.endsWith(u".json"))
@@ -76,7 +72,7 @@ std::map<QString, QByteArray> builtInFiles()
             continue;
         const QResource resource(folder + name);
         const bool plain = resource.compressionAlgorithm() == QResource::NoCompression;
-        files[stem(name)] =
+        files[fileStem(name)] =
             plain ? QByteArray::fromRawData(reinterpret_cast<const char *>(resource.data()), resource.size())
                   : resource.uncompressedData();
     }
@@ -98,7 +94,7 @@ Result<Catalog> Catalog::builtIn()
             return file.second.extends.isEmpty() || catalog.m_files.count(file.second.extends) > 0;
         });
         if (next == waiting.end())
-            return bad(waiting.begin()->first, QStringLiteral("extends what is not there"));
+            return badFile(waiting.begin()->first, QStringLiteral("extends what is not there"));
         const QString name = next->first;
         const FilePtr base = next->second.extends.isEmpty() ? nullptr : catalog.m_files[next->second.extends];
         const auto file = std::make_shared<const File>(name, files.at(name), std::move(next->second), base, true);
@@ -110,7 +106,7 @@ Result<Catalog> Catalog::builtIn()
             info.isBuiltIn = true;
             const auto entry = std::make_shared<const Model>(std::move(info), file);
             if (const QString wrong = catalog.insert(entry, -1); !wrong.isEmpty())
-                return bad(name, wrong);
+                return badFile(name, wrong);
         }
     }
     return catalog;
@@ -127,7 +123,7 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
         if (found != m_files.end())
             base = found->second;
     }
-    const auto file = std::make_shared<const File>(stem(name), json, outline, base, false);
+    const auto file = std::make_shared<const File>(fileStem(name), json, outline, base, false);
     const auto refuse = [&](const TableFault &fault, const QString &model = {}) {
         return tl::unexpected<Error>(file->error(name, fault, model));
     };
@@ -142,15 +138,16 @@ Result<void> Catalog::add(const QByteArray &json, const QString &name)
     std::vector<ModelPtr> models;
     for (const TableOutline::Model &model : outline.models) {
         ModelInfo info = infoOf(model, file->shared());
-        info.file = stem(name);
+        info.file = fileStem(name);
         models.push_back(std::make_shared<const Model>(std::move(info), file));
         if (const TableFault fault = models.back()->tables.check(); fault.isSet())
             return refuse(fault, model.name);
     }
-    if (m_files.count(stem(name)) > 0)
-        return bad(name, QStringLiteral("sound in itself, but there is a file of this name already; give it another"));
+    if (m_files.count(fileStem(name)) > 0)
+        return badFile(name,
+                       QStringLiteral("sound in itself, but there is a file of this name already; give it another"));
     Catalog next = *this;
-    next.m_files.emplace(stem(name), file);
+    next.m_files.emplace(fileStem(name), file);
     for (std::size_t i = 0; i < models.size(); ++i) {
         if (const QString wrong = next.insert(models[i], outline.models[i].replaces); !wrong.isEmpty())
             return refuse({wrong, {QStringLiteral("number")}}, models[i]->info.model);

@@ -34,28 +34,28 @@ QString wrongStructure(const QByteArray &json)
     return {};
 }
 
-tl::unexpected<Error> bad(const QString &name, const QString &text)
+} // namespace
+
+tl::unexpected<Error> badFile(const QString &name, const QString &text)
 {
     return failure(ErrorKind::BadFile, QStringLiteral("%1: %2").arg(name, text));
 }
 
-} // namespace
-
 Result<QJsonObject> readJsonObject(const QByteArray &json, const QString &name)
 {
     if (json.size() > MaximumTableFileSize)
-        return bad(name, QStringLiteral("larger than %1 bytes").arg(MaximumTableFileSize));
+        return badFile(name, QStringLiteral("larger than %1 bytes").arg(MaximumTableFileSize));
     const QString wrong = wrongStructure(json);
     if (!wrong.isEmpty())
-        return bad(name, wrong);
+        return badFile(name, wrong);
     QJsonParseError error;
     const QJsonDocument document = QJsonDocument::fromJson(json, &error);
     if (error.error != QJsonParseError::NoError) {
         const auto line = json.first(qBound(qsizetype(0), qsizetype(error.offset), json.size())).count('\n') + 1;
-        return bad(name, QStringLiteral("line %1: not JSON (%2)").arg(line).arg(error.errorString()));
+        return badFile(name, QStringLiteral("line %1: not JSON (%2)").arg(line).arg(error.errorString()));
     }
     if (!document.isObject())
-        return bad(name, QStringLiteral("not a JSON object"));
+        return badFile(name, QStringLiteral("not a JSON object"));
     return document.object();
 }
 

@@ -15,4 +15,7 @@ constexpr int MaximumTableFileDepth = 12;
 /// one object is refused, where QJsonDocument would silently take the last. Errors name the line.
 Result<QJsonObject> readJsonObject(const QByteArray &json, const QString &name);
 
+/// A file that is not what it should be: "name: text".
+tl::unexpected<Error> badFile(const QString &name, const QString &text);
+
 } // namespace dynascope

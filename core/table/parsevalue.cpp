@@ -17,11 +17,6 @@ tl::unexpected<Error> refuse(const QString &text)
     return failure(ErrorKind::InvalidArgument, text);
 }
 
-bool isAngle(Unit unit)
-{
-    return unit == Unit::Pulse || unit == Unit::Degree;
-}
-
 /// The unit under which TypedUnits has what may be typed for it.
 Unit typedAs(Unit unit)
 {

@@ -16,7 +16,6 @@ constexpr int MostTables = 16;    ///< of one model
 constexpr int MostNumbered = 512; ///< registers made from one entry
 constexpr std::size_t UsualNumbered = 128; ///< of all entries; more is made room for
 
-const QString Registers = QStringLiteral("registers");
 const QString Indirect = QStringLiteral("indirect");
 const QString IndirectAddress = QStringLiteral("Indirect Address #");
 const QString IndirectData = QStringLiteral("Indirect Data #");
@@ -101,7 +100,7 @@ void TableBuilder::readModel()
     m_common.doubt = text(u"doubt");
     m_context.modelNumber = m_common.modelNumber;
     m_context.addressesOnly = m_common.addressesOnly;
-    m_context.registers = m_settings.value(Registers).toObject();
+    m_context.registers = m_settings.value(RegistersKey).toObject();
     m_context.baudRates = m_settings.value("baudRates"_L1).toObject();
     m_context.scales = m_settings.value("scales"_L1).toObject();
     m_context.valueLists = m_settings.value("valueLists"_L1).toObject();
@@ -186,7 +185,7 @@ void TableBuilder::collectSteps(const QJsonObject &json, QJsonObject::const_iter
     if (!since.isUndefined() || !until.isUndefined()) {
         QStringList path{Indirect};
         if (reg != m_context.registers.constEnd())
-            path = QStringList{Registers, reg.key()};
+            path = QStringList{RegistersKey, reg.key()};
         if (!since.isUndefined())
             steps.push_back(static_cast<int>(numberIn(json, QStringLiteral("since"), 0, NewestFirmware, path)));
         if (!until.isUndefined())
@@ -264,7 +263,7 @@ QStringList TableBuilder::pathOf(const Field &field) const
     static const QString block = QStringLiteral("Indirect ");
     const bool generated = field.name.startsWith(block) && !m_context.registers.contains(field.name)
                            && !m_context.registers.contains(IndirectAddress);
-    return generated ? QStringList{Indirect} : QStringList{Registers, field.name};
+    return generated ? QStringList{Indirect} : QStringList{RegistersKey, field.name};
 }
 
 void TableBuilder::sayOf(const Field &field, const QString &what, const Field *other)
@@ -284,7 +283,7 @@ void TableBuilder::readRegisters(std::vector<Field> &fields)
         if (it.key().contains(u'#')) {
             readNumbered(it.key(), json, fields);
         } else if (json.contains("count"_L1)) {
-            say({Registers, it.key()},
+            say({RegistersKey, it.key()},
                 QStringLiteral("%1: \"count\" needs a # in the name, for the number").arg(it.key()));
         } else {
             add(it.key(), it.key(), json, fields);
@@ -294,7 +293,7 @@ void TableBuilder::readRegisters(std::vector<Field> &fields)
 
 void TableBuilder::readNumbered(const QString &name, const QJsonObject &json, std::vector<Field> &fields)
 {
-    const QStringList path{Registers, name};
+    const QStringList path{RegistersKey, name};
     const auto count = static_cast<int>(numberIn(json, QStringLiteral("count"), 1, MostNumbered, path));
     int stride = json.value("size"_L1).toInt();
     if (json.contains("stride"_L1))
@@ -371,7 +370,7 @@ void TableBuilder::add(const QString &name, const QString &key, const QJsonObjec
     fields.push_back(reader.read(name, json));
     if (reader.wrong().isEmpty())
         return;
-    say(key == Indirect ? QStringList{Indirect} : QStringList{Registers, key} + reader.wrongPath(), reader.wrong());
+    say(key == Indirect ? QStringList{Indirect} : QStringList{RegistersKey, key} + reader.wrongPath(), reader.wrong());
 }
 
 } // namespace dynascope

@@ -9,6 +9,9 @@
 
 namespace dynascope {
 
+/// Under which a table file has its registers.
+inline const QString RegistersKey = QStringLiteral("registers");
+
 /// Makes the control tables of one model, one for each range of firmware with the same registers, from settings that
 /// are merged already. Everything is checked here; the first thing wrong is kept.
 class TableBuilder

@@ -5,11 +5,6 @@
 #include <algorithm>
 
 namespace dynascope {
-namespace {
-
-const QString Registers = QStringLiteral("registers");
-
-} // namespace
 
 void TableBuilder::checkTogether(const std::vector<Field> &fields)
 {
@@ -36,7 +31,7 @@ void TableBuilder::checkNames(const std::vector<Field> &fields)
     std::sort(plain.begin(), plain.end());
     for (std::size_t i = 1; i < plain.size(); ++i) {
         if (plain[i].first == plain[i - 1].first)
-            return say({Registers, plain[i].second},
+            return say({RegistersKey, plain[i].second},
                        QStringLiteral("%1 and %2 are one name").arg(plain[i - 1].second, plain[i].second));
     }
     for (const Field &field : fields) {
@@ -59,7 +54,7 @@ void TableBuilder::checkResets(const Field &field)
     const QJsonObject definitions = m_settings.value(u"definitions").toObject();
     for (const QString &reset : field.resets) {
         if (!m_context.registers.contains(reset) && !definitions.contains(reset))
-            say({Registers, field.name, QStringLiteral("resets")},
+            say({RegistersKey, field.name, QStringLiteral("resets")},
                 QStringLiteral("%1: resets %2, which is no register").arg(field.name, reset));
     }
 }
@@ -67,7 +62,7 @@ void TableBuilder::checkResets(const Field &field)
 void TableBuilder::checkBound(const Field &field, const Bound &bound, const QStringList &names, const QStringList &path)
 {
     if (!bound.reg.isEmpty() && (bound.reg == field.name || !names.contains(bound.reg)))
-        say(QStringList{Registers, field.name} + path + QStringList{QStringLiteral("range")},
+        say(QStringList{RegistersKey, field.name} + path + QStringList{QStringLiteral("range")},
             QStringLiteral("%1: limited by %2, which is no other register").arg(field.name, bound.reg));
 }
 

@@ -14,7 +14,6 @@ namespace {
 constexpr int MostModels = 64; ///< in one file
 
 const QString Models = QStringLiteral("models");
-const QString Registers = QStringLiteral("registers");
 
 /// The paths at which what holds for a model may stand in its file, the likeliest first.
 QList<QStringList> placesOf(const QStringList &path, const QString &model, const QStringList &variants)
@@ -22,7 +21,7 @@ QList<QStringList> placesOf(const QStringList &path, const QString &model, const
     QList<QStringList> places{QStringList{Models, model} + path, path};
     for (const QString &variant : variants)
         places.append(QStringList{QStringLiteral("variants"), variant} + path);
-    if (path.value(0) == Registers)
+    if (path.value(0) == RegistersKey)
         places.append(QStringList{QStringLiteral("definitions")} + path.mid(1));
     return places;
 }
@@ -31,7 +30,7 @@ QList<QStringList> placesOf(const QStringList &path, const QString &model, const
 QStringList unnumbered(QStringList path)
 {
     static const QRegularExpression number(QStringLiteral("\\d+$"));
-    if (path.value(0) == Registers && path.size() > 1)
+    if (path.value(0) == RegistersKey && path.size() > 1)
         path[1].replace(number, QStringLiteral("#"));
     return path;
 }
@@ -49,7 +48,7 @@ int lineOf(const JsonPositions &positions, QStringList path)
 /// The same of what holds for a model, wherever in its file that stands.
 int lineOf(const JsonPositions &positions, QStringList path, const QString &model, const QStringList &variants)
 {
-    const qsizetype fewest = path.value(0) == Registers ? 2 : 1;
+    const qsizetype fewest = path.value(0) == RegistersKey ? 2 : 1;
     for (; path.size() >= fewest; path.removeLast()) {
         for (const QStringList &one : {path, unnumbered(path)}) {
             for (const QStringList &place : placesOf(one, model, variants)) {
@@ -68,8 +67,12 @@ int lineFor(const QByteArray &json, const TableFault &fault, const QString &mode
         return lineOf(positions, fault.path);
     // Each place is a pass over the text: of a large file with many variants not all are looked through.
     constexpr qsizetype Large = 64 * 1024, Many = 64, Few = 4;
-    const QStringList variants =
-        QJsonDocument::fromJson(json).object().value(u"variants").toObject().keys().mid(0, json.size() > Large ? Few : Many);
+    const QStringList variants = QJsonDocument::fromJson(json)
+                                     .object()
+                                     .value(u"variants")
+                                     .toObject()
+                                     .keys()
+                                     .mid(0, json.size() > Large ? Few : Many);
     for (const QStringList &path : {fault.path, fault.elsewhere}) {
         if (const int line = lineOf(positions, path, model, variants))
             return line;

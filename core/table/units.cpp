@@ -33,11 +33,6 @@ constexpr UnitName UnitNames[] = {
     {u"pulse/ms", Unit::PulsePerMs},
 };
 
-bool isAngle(Unit unit)
-{
-    return unit == Unit::Pulse || unit == Unit::Degree;
-}
-
 /// How many of it are a pulse per second; 0 for what doesn't count pulses by time.
 double pulsesPerSecond(Unit unit)
 {

@@ -12,15 +12,15 @@
 namespace dynascope {
 namespace {
 
-using State = RestoreRow::State;
+using RowState = RestoreRow::State;
 
-QString linesOf(const RestorePlan &plan, State state, const QString &heading)
+QString linesOf(const RestorePlan &plan, RowState state, const QString &heading)
 {
     QStringList lines;
     for (const RestoreRow &row : plan.rows) {
         if (row.state != state)
             continue;
-        lines << (state == State::Differs ? QStringLiteral("    %1: %2 → %3").arg(row.name, row.nowText, row.wantedText)
+        lines << (state == RowState::Differs ? QStringLiteral("    %1: %2 → %3").arg(row.name, row.nowText, row.wantedText)
                                           : QStringLiteral("    %1: %2").arg(row.name, row.why));
     }
     return lines.isEmpty() ? QString() : heading + u'\n' + lines.join(u'\n') + u'\n';
@@ -91,10 +91,10 @@ void RestoreDialog::show(const Result<RestorePlan> &plan)
     m_isRead = true;
     QString text;
     if (plan) {
-        text = linesOf(*plan, State::Differs, tr("Would be written:"))
-               + linesOf(*plan, State::NotCarried, tr("Could not be carried:"))
-               + linesOf(*plan, State::Left, tr("Left as it is:"));
-        text += tr("%1 registers are the same already.").arg(plan->count(State::Same));
+        text = linesOf(*plan, RowState::Differs, tr("Would be written:"))
+               + linesOf(*plan, RowState::NotCarried, tr("Could not be carried:"))
+               + linesOf(*plan, RowState::Left, tr("Left as it is:"));
+        text += tr("%1 registers are the same already.").arg(plan->count(RowState::Same));
     }
     m_list->setPlainText(withBaudTexts(text));
     check();
@@ -111,7 +111,7 @@ void RestoreDialog::check()
         return setNote(MessageKind::Info, tr("Nothing has to be written."), false);
     if (!torqueAllows())
         return setNote(MessageKind::Error, tr("Torque is on, which locks the EEPROM."));
-    QString text = tr("%1 registers will be written and read back.").arg(m_plan->count(State::Differs));
+    QString text = tr("%1 registers will be written and read back.").arg(m_plan->count(RowState::Differs));
     if (device()->isTorqueOn())
         text += u' ' + tr("Torque goes off first and stays off: what it holds may fall.");
     setNote(device()->isTorqueOn() ? MessageKind::Warning : MessageKind::Info, text);

@@ -17,19 +17,19 @@ namespace {
 
 constexpr int PdfResolution = 300; ///< dots per inch
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("CommissionTexts", text);
-}
+struct CommissionTexts {
+    Q_DECLARE_TR_FUNCTIONS(CommissionTexts)
+};
 
 QString placeOf(int id, int baudRate)
 {
-    return tr("ID %1 at %2").arg(QString::number(id), baudText(baudRate));
+    return CommissionTexts::tr("ID %1 at %2").arg(QString::number(id), baudText(baudRate));
 }
 
 QString jointOf(const CommissionJoint &joint)
 {
-    return joint.name.isEmpty() ? tr("ID %1").arg(joint.place.id) : tr("%1, ID %2").arg(joint.name).arg(joint.place.id);
+    return joint.name.isEmpty() ? CommissionTexts::tr("ID %1").arg(joint.place.id)
+                                : CommissionTexts::tr("%1, ID %2").arg(joint.name).arg(joint.place.id);
 }
 
 QString row(const QStringList &cells, const QString &tag)
@@ -45,7 +45,7 @@ Result<void> save(const QString &path, const QByteArray &bytes)
     QSaveFile file(path);
     if (file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size() && file.commit())
         return {};
-    return failure(ErrorKind::BadFile, tr("%1 can't be written: %2").arg(path, file.errorString()));
+    return failure(ErrorKind::BadFile, CommissionTexts::tr("%1 can't be written: %2").arg(path, file.errorString()));
 }
 
 } // namespace
@@ -57,19 +57,20 @@ QString commissionSentence(const Commissioning &commissioning)
     const auto done = static_cast<int>(list.count(CommissionState::Done));
     if (!next) {
         const auto skipped = static_cast<int>(list.count(CommissionState::Skipped));
-        return skipped == 0 ? tr("All %1 servos are done").arg(done)
-                            : tr("%1 servos are done, %2 skipped").arg(done).arg(skipped);
+        return skipped == 0 ? CommissionTexts::tr("All %1 servos are done").arg(done)
+                            : CommissionTexts::tr("%1 servos are done, %2 skipped").arg(done).arg(skipped);
     }
     const QString who = jointOf(list.joint(*next));
     if (commissioning.state() != Commissioning::State::Running)
-        return tr("Paused before %1").arg(who);
+        return CommissionTexts::tr("Paused before %1").arg(who);
     if (const auto settingUp = commissioning.settingUp())
-        return tr("Setting up %1: leave it plugged in").arg(jointOf(list.joint(*settingUp)));
+        return CommissionTexts::tr("Setting up %1: leave it plugged in").arg(jointOf(list.joint(*settingUp)));
     if (!commissioning.problem().isEmpty())
-        return commissioning.found() ? tr("This servo can't become %1").arg(who) : tr("Unplug one: one at a time");
+        return commissioning.found() ? CommissionTexts::tr("This servo can't become %1").arg(who)
+                                     : CommissionTexts::tr("Unplug one: one at a time");
     if (!commissioning.memory().hasLooked)
-        return tr("Looking who is there already");
-    return tr("Plug in the servo for %1").arg(who);
+        return CommissionTexts::tr("Looking who is there already");
+    return CommissionTexts::tr("Plug in the servo for %1").arg(who);
 }
 
 QString commissionDetail(const Commissioning &commissioning, const Catalog &catalog)
@@ -77,19 +78,19 @@ QString commissionDetail(const Commissioning &commissioning, const Catalog &cata
     const CommissionList &list = commissioning.list();
     const auto &found = commissioning.found();
     if (found && (commissioning.settingUp() || !commissioning.problem().isEmpty())) {
-        return tr("Found: %1 with firmware %2, %3")
+        return CommissionTexts::tr("Found: %1 with firmware %2, %3")
             .arg(modelName(catalog, found->modelNumber), QString::number(found->firmware),
                  placeOf(found->id, found->baudRate));
     }
     const auto next = list.next();
     if (!next)
-        return tr("Save the list of labels, or print it from a PDF");
+        return CommissionTexts::tr("Save the list of labels, or print it from a PDF");
     const CommissionJoint &joint = list.joint(*next);
-    const QString what = tr("It is to be model %1, and gets %2")
+    const QString what = CommissionTexts::tr("It is to be model %1, and gets %2")
                              .arg(modelName(catalog, joint.modelNumber), baudText(joint.place.baudRate));
     if (commissioning.lookingAt() == 0)
         return what;
-    return tr("%1. Looking at %2…").arg(what, baudText(commissioning.lookingAt()));
+    return CommissionTexts::tr("%1. Looking at %2…").arg(what, baudText(commissioning.lookingAt()));
 }
 
 QString bystanderText(const Commissioning &commissioning, const Catalog &catalog)
@@ -99,10 +100,11 @@ QString bystanderText(const Commissioning &commissioning, const Catalog &catalog
         return {};
     QStringList who;
     for (const CommissionMemory::Device &device : bystanders)
-        who << tr("%1 (%2)").arg(modelName(catalog, device.modelNumber), placeOf(device.place.id, device.place.baudRate));
+        who << CommissionTexts::tr("%1 (%2)").arg(modelName(catalog, device.modelNumber),
+                                                  placeOf(device.place.id, device.place.baudRate));
     if (who.size() > 3)
-        return tr("%1 devices were there before; they are left alone.").arg(who.size());
-    return tr("There before, and left alone: %1.").arg(who.join(QStringLiteral(", ")));
+        return CommissionTexts::tr("%1 devices were there before; they are left alone.").arg(who.size());
+    return CommissionTexts::tr("There before, and left alone: %1.").arg(who.join(QStringLiteral(", ")));
 }
 
 Result<void> saveLabelsPdf(const CommissionList &list, const Catalog &catalog, const QString &title,

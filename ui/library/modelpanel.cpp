@@ -27,7 +27,7 @@ constexpr int RowHeight = 26;
 constexpr int NumberWidth = 56;
 
 enum Role {
-    NumberRole = Qt::UserRole, ///< int: the model's number; missing for series and files
+    ModelNumberRole = Qt::UserRole, ///< int: the model's number; missing for series and files
     MessageRole,               ///< QString: why a file was refused
     WordsRole,                 ///< QString: what the filter looks in, names without spaces and '-'
 };
@@ -145,7 +145,7 @@ void ModelPanel::add(const Catalog::ModelInfo &info)
     for (QStandardItem *each : {name, number}) {
         each->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable);
         each->setToolTip(modelTip(info));
-        each->setData(info.modelNumber, NumberRole);
+        each->setData(info.modelNumber, ModelNumberRole);
     }
     name->setData(wordsOf(QStringList{info.model, QString::number(info.modelNumber)} + info.alsoCalled), WordsRole);
     name->setSizeHint(QSize(0, RowHeight));
@@ -227,7 +227,7 @@ QModelIndex ModelPanel::firstModel(const QModelIndex &below) const
 {
     for (int row = 0; row < m_shown->rowCount(below); ++row) {
         const QModelIndex index = m_shown->index(row, 0, below);
-        if (index.data(NumberRole).isValid())
+        if (index.data(ModelNumberRole).isValid())
             return index;
         if (const QModelIndex deeper = firstModel(index); deeper.isValid())
             return deeper;
@@ -253,7 +253,7 @@ void ModelPanel::select(int modelNumber)
 {
     const auto find = [this, modelNumber] {
         const QModelIndexList found =
-            m_shown->match(m_shown->index(0, 0), NumberRole, modelNumber, 1, Qt::MatchExactly | Qt::MatchRecursive);
+            m_shown->match(m_shown->index(0, 0), ModelNumberRole, modelNumber, 1, Qt::MatchExactly | Qt::MatchRecursive);
         return found.isEmpty() ? QModelIndex() : found.front();
     };
     QModelIndex index = find();
@@ -269,14 +269,14 @@ void ModelPanel::select(int modelNumber)
 
 int ModelPanel::current() const
 {
-    const QVariant number = m_view->currentIndex().siblingAtColumn(0).data(NumberRole);
+    const QVariant number = m_view->currentIndex().siblingAtColumn(0).data(ModelNumberRole);
     return number.isValid() ? number.toInt() : -1;
 }
 
 void ModelPanel::choose(const QModelIndex &index)
 {
     const QModelIndex row = index.siblingAtColumn(0);
-    if (const QVariant number = row.data(NumberRole); number.isValid())
+    if (const QVariant number = row.data(ModelNumberRole); number.isValid())
         emit modelChosen(number.toInt());
     else if (const QVariant message = row.data(MessageRole); message.isValid())
         emit refusedChosen(row.data().toString(), message.toString());

@@ -14,9 +14,9 @@
 namespace dynascope {
 namespace {
 
-constexpr quintptr TopLevel = 0; ///< internal id of registers; that of models is 1 + their register's row
+constexpr quintptr ModelLevel = 0; ///< internal id of registers; that of models is 1 + their register's row
 
-bool isNumber(int column)
+bool holdsNumber(int column)
 {
     return column == SearchModel::Address || column == SearchModel::Size;
 }
@@ -42,7 +42,7 @@ const RegisterIndex::Entry *SearchModel::entry(const QModelIndex &index) const
 {
     if (!index.isValid())
         return nullptr;
-    const std::size_t row = index.internalId() == TopLevel ? static_cast<std::size_t>(index.row())
+    const std::size_t row = index.internalId() == ModelLevel ? static_cast<std::size_t>(index.row())
                                                            : static_cast<std::size_t>(index.internalId()) - 1;
     return &m_entries[row];
 }
@@ -52,28 +52,28 @@ RegisterIndex::Owner SearchModel::owner(const QModelIndex &index) const
     const RegisterIndex::Entry *found = entry(index);
     if (!found)
         return {};
-    return found->owners[index.internalId() == TopLevel ? 0 : static_cast<std::size_t>(index.row())];
+    return found->owners[index.internalId() == ModelLevel ? 0 : static_cast<std::size_t>(index.row())];
 }
 
 QModelIndex SearchModel::index(int row, int column, const QModelIndex &parent) const
 {
     if (!hasIndex(row, column, parent))
         return {};
-    return createIndex(row, column, parent.isValid() ? static_cast<quintptr>(parent.row()) + 1 : TopLevel);
+    return createIndex(row, column, parent.isValid() ? static_cast<quintptr>(parent.row()) + 1 : ModelLevel);
 }
 
 QModelIndex SearchModel::parent(const QModelIndex &child) const
 {
-    if (!child.isValid() || child.internalId() == TopLevel)
+    if (!child.isValid() || child.internalId() == ModelLevel)
         return {};
-    return createIndex(static_cast<int>(child.internalId() - 1), 0, TopLevel);
+    return createIndex(static_cast<int>(child.internalId() - 1), 0, ModelLevel);
 }
 
 int SearchModel::rowCount(const QModelIndex &parent) const
 {
     if (!parent.isValid())
         return static_cast<int>(m_entries.size());
-    if (parent.internalId() != TopLevel || parent.column() != 0)
+    if (parent.internalId() != ModelLevel || parent.column() != 0)
         return 0;
     return static_cast<int>(m_entries[static_cast<std::size_t>(parent.row())].owners.size());
 }
@@ -134,14 +134,14 @@ QVariant SearchModel::data(const QModelIndex &index, int role) const
         return {};
     const auto column = static_cast<Column>(index.column());
     const QString text =
-        index.internalId() == TopLevel ? registerText(*entry(index), column) : modelText(owner(index), column);
+        index.internalId() == ModelLevel ? registerText(*entry(index), column) : modelText(owner(index), column);
     switch (role) {
     case Qt::DisplayRole: return text;
     case Qt::ToolTipRole: return plainToolTip(text);
     case Qt::TextAlignmentRole:
-        return static_cast<int>((isNumber(column) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-    case Qt::FontRole: return isNumber(column) ? QVariant(m_numbers) : QVariant();
-    case LibraryDelegate::MarkedRole: return column == Models && index.internalId() != TopLevel;
+        return static_cast<int>((holdsNumber(column) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+    case Qt::FontRole: return holdsNumber(column) ? QVariant(m_numbers) : QVariant();
+    case LibraryDelegate::MarkedRole: return column == Models && index.internalId() != ModelLevel;
     default: return {};
     }
 }
@@ -155,7 +155,7 @@ QVariant SearchModel::headerData(int section, Qt::Orientation orientation, int r
     if (role == Qt::DisplayRole)
         return names[static_cast<std::size_t>(section)];
     if (role == Qt::TextAlignmentRole)
-        return static_cast<int>((isNumber(section) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
+        return static_cast<int>((holdsNumber(section) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
     return {};
 }
 

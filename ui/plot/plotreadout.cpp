@@ -13,8 +13,8 @@ namespace dynascope {
 
 namespace {
 
-constexpr int MostRows = 12;
-constexpr qreal Padding = 8;
+constexpr int MostReadoutRows = 12;
+constexpr qreal ReadoutPadding = 8;
 constexpr qreal Swatch = 10;
 
 struct Row {
@@ -62,8 +62,8 @@ void PlotReadout::paint(QPainter &painter) const
         painter.setBrush(trace.color);
         painter.drawEllipse(QPointF(x, y), 4, 4);
     }
-    const int more = std::max(0, static_cast<int>(rows.size()) - MostRows);
-    rows.resize(std::min<std::size_t>(rows.size(), MostRows));
+    const int more = std::max(0, static_cast<int>(rows.size()) - MostReadoutRows);
+    rows.resize(std::min<std::size_t>(rows.size(), MostReadoutRows));
 
     const QFont numbers = numberFont(painter.font());
     const QFontMetricsF text(painter.font());
@@ -78,10 +78,10 @@ void PlotReadout::paint(QPainter &painter) const
         values = std::max(values, digits.horizontalAdvance(withMinus(QString::number(row.value, 'f', row.trace->decimals))));
         units = std::max(units, text.horizontalAdvance(row.trace->unit));
     }
-    const qreal width = 5 * Padding + Swatch + names + values + units;
-    const qreal height = line * (static_cast<qreal>(rows.size()) + 1 + (more > 0 ? 1 : 0)) + Padding;
-    const bool isLeft = x + Padding + width > area.right();
-    const qreal boxLeft = isLeft ? std::max(x - Padding - width, area.left() + 2) : x + Padding;
+    const qreal width = 5 * ReadoutPadding + Swatch + names + values + units;
+    const qreal height = line * (static_cast<qreal>(rows.size()) + 1 + (more > 0 ? 1 : 0)) + ReadoutPadding;
+    const bool isLeft = x + ReadoutPadding + width > area.right();
+    const qreal boxLeft = isLeft ? std::max(x - ReadoutPadding - width, area.left() + 2) : x + ReadoutPadding;
     const QRectF box(std::round(boxLeft) + 0.5, area.top() + 8.5, width, height);
     QColor back = palette.color(QPalette::ToolTipBase);
     back.setAlphaF(0.94F);
@@ -89,19 +89,19 @@ void PlotReadout::paint(QPainter &painter) const
     painter.setBrush(back);
     painter.drawRoundedRect(box, 4, 4);
 
-    QRectF slot(box.left() + Padding, box.top() + Padding / 2, box.width() - 2 * Padding, line);
+    QRectF slot(box.left() + ReadoutPadding, box.top() + ReadoutPadding / 2, box.width() - 2 * ReadoutPadding, line);
     painter.setPen(theme.dimmed);
     painter.drawText(slot, Qt::AlignVCenter | Qt::AlignLeft, timeText(view, at));
     for (const Row &row : rows) {
         slot.translate(0, line);
         painter.fillRect(QRectF(slot.left(), slot.center().y() - 1.5, Swatch, 3), row.trace->color);
         painter.setPen(palette.color(QPalette::ToolTipText));
-        const QRectF name(slot.left() + Swatch + Padding, slot.top(), names, line);
+        const QRectF name(slot.left() + Swatch + ReadoutPadding, slot.top(), names, line);
         painter.drawText(
             name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->label, Qt::ElideMiddle, names + 1));
         const QFont font = painter.font();
         painter.setFont(numbers);
-        painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - Padding / 2, line),
+        painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - ReadoutPadding / 2, line),
             Qt::AlignVCenter | Qt::AlignRight,
             withMinus(QString::number(row.value, 'f', row.trace->decimals)));
         painter.setFont(font);

@@ -16,7 +16,7 @@ namespace dynascope {
 
 namespace {
 
-constexpr int Margin = 8;
+constexpr int RowMargin = 8;
 constexpr int IconSize = 16;
 constexpr int SwatchWidth = 4;
 
@@ -48,19 +48,19 @@ void paintSwatch(QPainter &painter, const QRectF &box, int dash)
 
 QRect TraceDelegate::eyeRect(const QRect &row)
 {
-    return {row.right() - 2 * (IconSize + Margin) + 1, row.top() + (row.height() - IconSize) / 2, IconSize, IconSize};
+    return {row.right() - 2 * (IconSize + RowMargin) + 1, row.top() + (row.height() - IconSize) / 2, IconSize, IconSize};
 }
 
 QRect TraceDelegate::removeRect(const QRect &row)
 {
-    return eyeRect(row).translated(IconSize + Margin, 0);
+    return eyeRect(row).translated(IconSize + RowMargin, 0);
 }
 
 QSize TraceDelegate::sizeHint(const QStyleOptionViewItem &option, const QModelIndex &) const
 {
     const int first = QFontMetrics(option.font).height();
     const int second = QFontMetrics(smallFont(option.font)).height();
-    return {200, first + second + Margin};
+    return {200, first + second + RowMargin};
 }
 
 void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
@@ -86,15 +86,15 @@ void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(Qt::NoPen);
     painter->setBrush(swatch);
-    paintSwatch(*painter, QRectF(row.left() + Margin, row.top() + 6, SwatchWidth, row.height() - 12),
+    paintSwatch(*painter, QRectF(row.left() + RowMargin, row.top() + 6, SwatchWidth, row.height() - 12),
         dashOf(index.data(TraceModel::ColorIndexRole).toInt()));
 
     const QFont small = smallFont(option.font);
     const QFont numbers = numberFont(option.font);
-    const int left = row.left() + 2 * Margin + SwatchWidth;
-    const int right = eyeRect(row).left() - Margin;
+    const int left = row.left() + 2 * RowMargin + SwatchWidth;
+    const int right = eyeRect(row).left() - RowMargin;
     const int firstHeight = QFontMetrics(option.font).height();
-    const int top = row.top() + Margin / 2;
+    const int top = row.top() + RowMargin / 2;
     const QString unit = index.data(TraceModel::UnitRole).toString();
     QString value = index.data(TraceModel::ValueRole).toString();
     if (value.isEmpty())
@@ -114,7 +114,7 @@ void TraceDelegate::paint(QPainter *painter, const QStyleOptionViewItem &option,
 
     painter->setFont(option.font);
     painter->setPen(isGone || !isVisible ? dimmed : text);
-    const QRect nameRect(left, top, qMax(0, valueRect.left() - Margin - left), firstHeight);
+    const QRect nameRect(left, top, qMax(0, valueRect.left() - RowMargin - left), firstHeight);
     painter->drawText(nameRect, Qt::AlignLeft | Qt::AlignVCenter,
         QFontMetrics(option.font)
             .elidedText(index.data(TraceModel::FieldRole).toString(), Qt::ElideMiddle, nameRect.width()));

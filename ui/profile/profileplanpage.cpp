@@ -18,7 +18,7 @@ namespace {
 
 enum Column { What, Now, Then, Where, Columns };
 constexpr int Gap = 16;       ///< behind the widest text of a column
-constexpr int RowHeight = 22; ///< as of the joints and registers
+constexpr int PlanRowHeight = 22; ///< as of the joints and registers
 constexpr int Widest = 280;   ///< of a column: what is wider is whole in its tool tip
 
 } // namespace
@@ -129,7 +129,7 @@ void ProfilePlanPage::addMoves(const MovePlan &plan)
         auto *item = new QTreeWidgetItem(m_steps); // which owns it
         item->setText(What, tr("Move %1").arg(plan.devices[step.device].place.name));
         item->setFont(What, boldFont());
-        item->setSizeHint(Where, QSize(0, RowHeight));
+        item->setSizeHint(Where, QSize(0, PlanRowHeight));
         item->setText(Now, step.isBaud() ? baudText(step.from.baudRate) : tr("ID %1").arg(step.from.id));
         item->setText(Then, step.isBaud() ? baudText(step.to.baudRate) : tr("ID %1").arg(step.to.id));
         item->setText(Where, tr("EEPROM; then what differs there"));
@@ -143,7 +143,7 @@ void ProfilePlanPage::addJoint(const JointApply &joint, const JointComparison &c
     item->setText(What, joint.name);
     item->setText(Now, profilePlaceText(joint.table->model(), joint.found.id, joint.found.baudRate));
     item->setFont(What, boldFont());
-    item->setSizeHint(Where, QSize(0, RowHeight));
+    item->setSizeHint(Where, QSize(0, PlanRowHeight));
     if (joint.needsTorqueOff)
         addStep(*item, tr("Torque off"), tr("On"), tr("Off"), {});
     addWrites(*item, joint, comparison);
@@ -183,7 +183,7 @@ void ProfilePlanPage::addStep(QTreeWidgetItem &under, const QString &what, const
 {
     auto *item = new QTreeWidgetItem(&under); // which owns it
     const QStringList texts{what, now, then, where};
-    item->setSizeHint(Where, QSize(0, RowHeight));
+    item->setSizeHint(Where, QSize(0, PlanRowHeight));
     for (int column = 0; column < Columns; ++column) {
         item->setText(column, texts[column]);
         item->setToolTip(column, plainToolTip(texts[column]));

@@ -11,10 +11,9 @@
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("RecordTexts", text);
-}
+struct RecordTexts {
+    Q_DECLARE_TR_FUNCTIONS(RecordTexts)
+};
 
 } // namespace
 
@@ -38,17 +37,17 @@ QString endText(const RecorderStatus &status, std::chrono::seconds length)
 {
     const QString path = QDir::toNativeSeparators(status.path);
     QString text = status.error.text.isEmpty()
-        ? tr("Recorded %1 samples in %2, %3: %4")
+        ? RecordTexts::tr("Recorded %1 samples in %2, %3: %4")
               .arg(grouped(status.samples), lengthText(length), sizeText(status.bytes), path)
-        : tr("The recording ended: %1. %2 samples are in %3")
+        : RecordTexts::tr("The recording ended: %1. %2 samples are in %3")
               .arg(status.error.text, grouped(status.samples), path);
     if (status.files > 1)
-        text += tr(" and %1 files before it").arg(status.files - 1);
+        text += RecordTexts::tr(" and %1 files before it").arg(status.files - 1);
     QStringList without;
     if (status.missed > 0)
-        without << tr("%1 replies did not come").arg(grouped(status.missed));
+        without << RecordTexts::tr("%1 replies did not come").arg(grouped(status.missed));
     if (status.lost > 0)
-        without << tr("%1 samples were lost, for the disk didn't take them").arg(grouped(status.lost));
+        without << RecordTexts::tr("%1 samples were lost, for the disk didn't take them").arg(grouped(status.lost));
     return without.isEmpty() ? text : text + QStringLiteral(". ") + without.join(QStringLiteral("; "));
 }
 

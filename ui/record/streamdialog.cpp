@@ -20,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto Refresh = 500ms;
+constexpr auto StatusInterval = 500ms;
 constexpr int IconSize = 16;
 constexpr int LongestHost = 64;
 constexpr int TextLetters = 56;
@@ -63,7 +63,7 @@ StreamDialog::StreamDialog(SessionStream &stream, QWidget *parent)
     connect(m_port, &QSpinBox::valueChanged, this, &StreamDialog::update);
     connect(m_toggle, &QPushButton::clicked, this, &StreamDialog::toggle);
     connect(&stream, &SessionStream::changed, this, &StreamDialog::update);
-    m_timer.setInterval(Refresh);
+    m_timer.setInterval(StatusInterval);
     connect(&m_timer, &QTimer::timeout, this, &StreamDialog::update);
     m_timer.start();
     update();

@@ -19,7 +19,7 @@ namespace dynascope {
 namespace {
 
 constexpr std::size_t MostShown = 3; ///< devices whose consequences are listed one by one
-constexpr int IconSize = 20, TextWidth = 460;
+constexpr int SignSize = 20, TextWidth = 460;
 
 RegisterLookup lookupOf(const Device &device)
 {
@@ -143,7 +143,7 @@ void ConsequencesDialog::addConsequences(QVBoxLayout &layout)
             auto *sign = new QLabel(this);
             sign->setPixmap((one.isSerious() ? icon(QStringLiteral("warning"), IconTint::Warning)
                                              : icon(QStringLiteral("info"), IconTint::Accent))
-                                .pixmap(QSize(IconSize, IconSize), devicePixelRatioF()));
+                                .pixmap(QSize(SignSize, SignSize), devicePixelRatioF()));
             grid->addWidget(sign, row, 0, Qt::AlignTop);
             QLabel *label = makeText(text, this);
             label->setObjectName(QStringLiteral("consequence"));

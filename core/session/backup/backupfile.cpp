@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/backup/backup.h"
+#include "core/session/texts.h"
 #include "core/yaml/yamledit.h"
 #include "core/yaml/yamltree.h"
 
-#include <QCoreApplication>
 #include <QFile>
 #include <QFileInfo>
 #include <QSaveFile>
@@ -14,11 +14,6 @@ namespace dynascope {
 namespace {
 
 constexpr qsizetype CommentColumn = 36;
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Backup", text);
-}
 
 /// "  Operating Mode: 3                 # Position control"
 QByteArray lineOf(const Backup &backup, const BackupRegister &one)
@@ -76,10 +71,10 @@ Result<Backup> loadBackup(const QString &path, const Catalog &catalog)
 {
     QFile file(path);
     if (QFileInfo(path).isDir())
-        return failure(ErrorKind::BadFile, tr("%1 is a folder").arg(path));
+        return failure(ErrorKind::BadFile, BackupText::tr("%1 is a folder").arg(path));
     if (!file.open(QIODevice::ReadOnly)) {
         return failure(file.exists() ? ErrorKind::BadFile : ErrorKind::NotFound,
-                       tr("%1: %2").arg(path, file.errorString()));
+                       BackupText::tr("%1: %2").arg(path, file.errorString()));
     }
     return backupFromYaml(file.read(MaximumYamlSize + 1), path, catalog); // a byte too many is refused
 }
@@ -89,7 +84,7 @@ Result<void> saveBackup(const QString &path, const Backup &backup)
     QSaveFile file(path);
     const QByteArray yaml = toYaml(backup);
     if (!file.open(QIODevice::WriteOnly) || file.write(yaml) != yaml.size() || !file.commit())
-        return failure(ErrorKind::BadFile, tr("%1 can't be written: %2").arg(path, file.errorString()));
+        return failure(ErrorKind::BadFile, BackupText::tr("%1 can't be written: %2").arg(path, file.errorString()));
     return {};
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the text of a backup to its values, every fault with its line and column.
 #include "core/session/backup/backup.h"
+#include "core/session/texts.h"
 #include "core/table/nearestnames.h"
 #include "core/yaml/yamlfaults.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <map>
@@ -13,11 +12,6 @@ namespace dynascope {
 namespace {
 
 constexpr int LastAddress = 65535; ///< the last address that a packet can name
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Backup", text);
-}
 
 class BackupReader : private YamlFaults
 {
@@ -49,11 +43,11 @@ private:
     {
         const YamlNode *version = root.isMap() ? root.find(u"backup") : nullptr;
         if (!version) {
-            say(root, tr("\"backup: %1\" is missing, which says that this is one").arg(Backup::Version));
+            say(root, BackupText::tr("\"backup: %1\" is missing, which says that this is one").arg(Backup::Version));
             return false;
         }
         if (version->text != QString::number(Backup::Version)) {
-            say(*version, tr("backup is %1 here, not \"%2\"").arg(Backup::Version).arg(cut(version->text)));
+            say(*version, BackupText::tr("backup is %1 here, not \"%2\"").arg(Backup::Version).arg(cut(version->text)));
             return false;
         }
         constexpr std::array Keys{u"backup", u"model", u"model-number", u"firmware", u"id",
@@ -62,7 +56,7 @@ private:
             const YamlNode &key = root.children[i];
             const bool isKnown = std::ranges::any_of(Keys, [&](const char16_t *known) { return key.text == known; });
             if (!isKnown)
-                say(key, tr("\"%1\" is no key of a backup").arg(cut(key.text)));
+                say(key, BackupText::tr("\"%1\" is no key of a backup").arg(cut(key.text)));
         }
         return true;
     }
@@ -71,7 +65,7 @@ private:
     {
         const YamlNode *node = root.find(key);
         if (!node)
-            say(root, tr("\"%1\" is missing").arg(key.toString()));
+            say(root, BackupText::tr("\"%1\" is missing").arg(key.toString()));
         return node;
     }
 
@@ -83,7 +77,7 @@ private:
         const bool isNumber = node.kind == YamlNode::Kind::Scalar && ok && (!isHex || number >= 0);
         if (isNumber && number >= low && number <= high)
             return number;
-        say(node, tr("%1 is a whole number from %2 to %3, not \"%4\"")
+        say(node, BackupText::tr("%1 is a whole number from %2 to %3, not \"%4\"")
                       .arg(cut(what), QString::number(low), QString::number(high), cut(node.text)));
         return std::nullopt;
     }
@@ -103,7 +97,7 @@ private:
         if (const YamlNode *date = needed(root, u"date")) {
             m_backup.at = QDateTime::fromString(date->text, Qt::ISODate).toUTC();
             if (!m_backup.at.isValid())
-                say(*date, tr("date is a time like 2026-11-28T20:30:00Z, not \"%1\"").arg(cut(date->text)));
+                say(*date, BackupText::tr("date is a time like 2026-11-28T20:30:00Z, not \"%1\"").arg(cut(date->text)));
         }
         if (const YamlNode *model = needed(root, u"model"))
             readModel(root, *model);
@@ -119,7 +113,7 @@ private:
         const auto isCalled = [&](const QString &name) { return normalizedName(name) == normalizedName(node.text); };
         if (node.kind != YamlNode::Kind::Scalar
             || (model && !isCalled(model->model) && std::ranges::none_of(model->alsoCalled, isCalled)))
-            return say(node, tr("model number %1 is that of %2, not \"%3\"")
+            return say(node, BackupText::tr("model number %1 is that of %2, not \"%3\"")
                                  .arg(m_backup.modelNumber)
                                  .arg(m_backup.model, cut(node.text)));
         m_backup.table = m_catalog.findOrRaw(m_backup.modelNumber, m_backup.firmware);
@@ -130,11 +124,11 @@ private:
         if (!node || node->kind == YamlNode::Kind::Null)
             return;
         if (!node->isMap())
-            return say(*node, tr("registers are \"Name: value\" lines"));
+            return say(*node, BackupText::tr("registers are \"Name: value\" lines"));
         if (node->children.size() / 2 > Backup::MostRegisters)
-            return say(*node, tr("more than %1 registers").arg(Backup::MostRegisters));
+            return say(*node, BackupText::tr("more than %1 registers").arg(Backup::MostRegisters));
         if (!m_backup.isKnownModel())
-            return say(*node, tr("no table tells the registers of model %1").arg(m_backup.modelNumber));
+            return say(*node, BackupText::tr("no table tells the registers of model %1").arg(m_backup.modelNumber));
         for (std::size_t i = 0; i + 1 < node->children.size(); i += 2)
             readRegister(node->children[i], node->children[i + 1]);
     }
@@ -144,15 +138,15 @@ private:
         const Field *field = m_backup.table->find(name.text);
         if (!field) {
             const QStringList near = namesNear(*m_backup.table, name.text);
-            const QString what = tr("%1 with firmware %2 has no register \"%3\"")
+            const QString what = BackupText::tr("%1 with firmware %2 has no register \"%3\"")
                                      .arg(m_backup.model)
                                      .arg(m_backup.firmware)
                                      .arg(cut(name.text));
-            return say(name, near.isEmpty() ? what : what + tr("; nearest: %1").arg(near.join(u", ")));
+            return say(name, near.isEmpty() ? what : what + BackupText::tr("; nearest: %1").arg(near.join(u", ")));
         }
         const int index = m_backup.table->indexOf(field);
         if (const auto [at, isNew] = m_lines.emplace(index, name.line); !isNew)
-            return say(name, tr("%1 stands in line %2 already").arg(field->name).arg(at->second));
+            return say(name, BackupText::tr("%1 stands in line %2 already").arg(field->name).arg(at->second));
         if (const auto raw = whole(value, field->name, smallestRaw(*field), largestRaw(*field)))
             m_backup.registers.push_back({index, *raw, value.line, value.column});
     }
@@ -163,17 +157,17 @@ private:
         if (!node || node->kind == YamlNode::Kind::Null)
             return;
         if (!node->isMap())
-            return say(*node, tr("bytes are \"ADDRESS: '00 FF'\" lines"));
+            return say(*node, BackupText::tr("bytes are \"ADDRESS: '00 FF'\" lines"));
         for (std::size_t i = 0; i + 1 < node->children.size(); i += 2) {
             const YamlNode &value = node->children[i + 1];
-            const auto address = whole(node->children[i], tr("an address"), 0, LastAddress);
+            const auto address = whole(node->children[i], BackupText::tr("an address"), 0, LastAddress);
             const QByteArray text = value.text.toLatin1().replace(' ', QByteArray());
             const QByteArray bytes = QByteArray::fromHex(text);
             const bool isHex = value.kind == YamlNode::Kind::Scalar && !bytes.isEmpty()
                                && bytes.size() <= Backup::MostBytes && bytes.toHex() == text.toLower();
             if (!isHex)
-                say(value,
-                    tr("bytes are written as pairs of hexadecimal digits, up to %1 of them").arg(Backup::MostBytes));
+                say(value, BackupText::tr("bytes are written as pairs of hexadecimal digits, up to %1 of them")
+                               .arg(Backup::MostBytes));
             else if (address)
                 m_backup.bytes.push_back({static_cast<int>(*address), Bytes(bytes.begin(), bytes.end())});
         }
@@ -193,7 +187,7 @@ private:
             YamlNode where;
             where.line = one->line;
             where.column = one->column;
-            say(where, tr("%1 is %2 here, but %3 above").arg(name.toString()).arg(one->raw).arg(wanted));
+            say(where, BackupText::tr("%1 is %2 here, but %3 above").arg(name.toString()).arg(one->raw).arg(wanted));
         }
     }
 

@@ -2,8 +2,7 @@
 #include "core/session/backup/comparebackups.h"
 
 #include "core/session/profile/profile.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +10,6 @@
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Backup", text);
-}
 
 ComparedRegister oneSided(const Backup &backup, const BackupRegister &one, bool isHere)
 {
@@ -76,7 +70,7 @@ void compareBytes(const Backup &here, const Backup &there, std::vector<ComparedR
     for (const int address : addresses) {
         const auto one = mine.find(address), other = others.find(address);
         ComparedRegister row;
-        row.name = tr("Byte %1").arg(address);
+        row.name = BackupText::tr("Byte %1").arg(address);
         row.here = one == mine.end() ? 0 : one->second;
         row.there = other == others.end() ? 0 : other->second;
         if (row.here == row.there)
@@ -115,18 +109,18 @@ QString otherMeaning(const ControlTable &fromTable, const Field &from, const Con
     const EffectiveField one = effective(from, lookup), other = effective(to, lookup);
     const bool isPulse = one.unit == Unit::Pulse && fromTable.resolution() != toTable.resolution();
     if (one.unit != other.unit || one.scale != other.scale || one.directionBit != other.directionBit || isPulse) {
-        return tr("%1 is %2 here and would be %3 there")
+        return BackupText::tr("%1 is %2 here and would be %3 there")
             .arg(raw)
             .arg(valueText(from, one, fromTable.resolution(), raw), valueText(to, other, toTable.resolution(), raw));
     }
     if (from.values.empty() && from.bits.empty())
         return {};
     if (const QString bit = unknownBit(from, to, raw); !bit.isEmpty())
-        return tr("its bit \"%1\" has no meaning there").arg(bit);
+        return BackupText::tr("its bit \"%1\" has no meaning there").arg(bit);
     const QString means = meaning(from, raw), wouldMean = meaning(to, raw);
     if (means.isEmpty() || wouldMean.isEmpty() || means == wouldMean)
         return {};
-    return tr("%1 is \"%2\" here and would be \"%3\" there").arg(QString::number(raw), means, wouldMean);
+    return BackupText::tr("%1 is \"%2\" here and would be \"%3\" there").arg(QString::number(raw), means, wouldMean);
 }
 
 std::vector<ComparedRegister> compareBackups(const Backup &here, const Backup &there)

@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/backup/restore.h"
 
+#include "core/session/texts.h"
 #include "core/table/nearestnames.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <array>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Backup", text);
-}
 
 bool isAmong(const QStringList &names, const QString &name)
 {
@@ -65,24 +59,24 @@ private:
 
     static tl::unexpected<Error> refuse(const QString &why)
     {
-        return failure(ErrorKind::InvalidArgument, tr("%1; nothing was written").arg(why));
+        return failure(ErrorKind::InvalidArgument, BackupText::tr("%1; nothing was written").arg(why));
     }
 
     Result<void> checkWhole() const
     {
         if (m_backup.modelNumber != m_now.modelNumber) {
             return refuse(
-                tr("%1 is the backup of a %2, and %3 is none")
+                BackupText::tr("%1 is the backup of a %2, and %3 is none")
                     .arg(m_backup.file.isEmpty() ? m_backup.name() : m_backup.file, m_backup.model, m_now.name()));
         }
         if (!m_now.isKnownModel() || !m_backup.isKnownModel())
-            return refuse(tr("%1: the registers of this model are not known").arg(m_now.name()));
+            return refuse(BackupText::tr("%1: the registers of this model are not known").arg(m_now.name()));
         for (const QString &name : m_options.only + m_options.except) {
             if (m_backup.table->find(name) || m_now.table->find(name))
                 continue;
             const QStringList near = namesNear(*m_now.table, name);
-            return refuse(tr("%1 has no register \"%2\"").arg(m_now.model, name)
-                          + (near.isEmpty() ? QString() : tr("; nearest: %1").arg(near.join(u", "))));
+            return refuse(BackupText::tr("%1 has no register \"%2\"").arg(m_now.model, name)
+                          + (near.isEmpty() ? QString() : BackupText::tr("; nearest: %1").arg(near.join(u", "))));
         }
         return {};
     }
@@ -107,8 +101,8 @@ private:
             row.state = row.now == row.wanted ? RestoreRow::State::Same : RestoreRow::State::Left;
             row.field = -1; // not to be written, whatever it holds
         } else {
-            row.why =
-                own ? whyNotCarried(row, field, *own) : tr("firmware %1 has no such register").arg(m_now.firmware);
+            row.why = own ? whyNotCarried(row, field, *own)
+                          : BackupText::tr("firmware %1 has no such register").arg(m_now.firmware);
             row.state = !row.why.isEmpty()      ? RestoreRow::State::NotCarried
                         : row.now == row.wanted ? RestoreRow::State::Same
                                                 : RestoreRow::State::Differs;
@@ -125,25 +119,25 @@ private:
     QString whyLeft(const RestoreRow &row) const
     {
         switch (row.use) {
-        case BackupUse::Motion: return tr("torque and goals are never restored");
-        case BackupUse::Order: return tr("it is an order or the protocol, no setting");
-        case BackupUse::Place: return tr("ID and baud rate are moved by themselves");
+        case BackupUse::Motion: return BackupText::tr("torque and goals are never restored");
+        case BackupUse::Order: return BackupText::tr("it is an order or the protocol, no setting");
+        case BackupUse::Place: return BackupText::tr("ID and baud rate are moved by themselves");
         case BackupUse::Calibration:
             if (!m_options.calibration.value_or(m_plan.isSameDevice))
-                return tr("it belongs to the single device that the backup was made of");
+                return BackupText::tr("it belongs to the single device that the backup was made of");
             break;
         case BackupUse::Setting:
         case BackupUse::Identity:
         case BackupUse::Reading: break;
         }
         const bool isChosen = m_options.only.isEmpty() || isAmong(m_options.only, row.name);
-        return isChosen && !isAmong(m_options.except, row.name) ? QString() : tr("it was not chosen");
+        return isChosen && !isAmong(m_options.except, row.name) ? QString() : BackupText::tr("it was not chosen");
     }
 
     QString whyNotCarried(const RestoreRow &row, const Field &from, const Field &to) const
     {
         if (!row.now)
-            return tr("%1 lets it not be read").arg(m_now.name());
+            return BackupText::tr("%1 lets it not be read").arg(m_now.name());
         if (const QString other = otherMeaning(*m_backup.table, from, *m_now.table, to, row.wanted, m_backup.lookup());
             !other.isEmpty())
             return other;
@@ -229,10 +223,11 @@ QString wordOf(RestoreRow::State state)
 
 QString inServoConditions()
 {
-    return tr("The device keeps one backup of its own control table, in its own memory, and the next one replaces it. "
-              "Torque must be off. Restoring overwrites the whole EEPROM, ID and baud rate with it, and restarts the "
-              "device. Of the RAM it brings values back where Startup Configuration says that they are restored at "
-              "power-up. Torque, goals and readings are no part of it. Models without it need a backup to a file.");
+    return BackupText::tr(
+        "The device keeps one backup of its own control table, in its own memory, and the next one replaces it. "
+        "Torque must be off. Restoring overwrites the whole EEPROM, ID and baud rate with it, and restarts the "
+        "device. Of the RAM it brings values back where Startup Configuration says that they are restored at "
+        "power-up. Torque, goals and readings are no part of it. Models without it need a backup to a file.");
 }
 
 QString inServoProblem(const ControlTable &table, int firmware, bool restore, std::optional<std::int64_t> torque,
@@ -243,16 +238,17 @@ QString inServoProblem(const ControlTable &table, int firmware, bool restore, st
     if (!table.hasBackup(firmware)) {
         const int from = table.description().backupFrom;
         return from < 0
-                   ? tr("this model has no backup of its own (Control Table Backup); a backup to a file does it, too")
-                   : tr("its firmware %1 has no backup of its own (Control Table Backup), which came with "
-                        "firmware %2; a backup to a file does it, too")
+                   ? BackupText::tr(
+                       "this model has no backup of its own (Control Table Backup); a backup to a file does it, too")
+                   : BackupText::tr("its firmware %1 has no backup of its own (Control Table Backup), which came with "
+                                    "firmware %2; a backup to a file does it, too")
                          .arg(firmware)
                          .arg(from);
     }
     if (torque.value_or(0) != 0)
-        return tr("its torque is on, and it makes and restores a backup of its own only with torque off");
+        return BackupText::tr("its torque is on, and it makes and restores a backup of its own only with torque off");
     if (restore && ready == 0)
-        return tr("it holds no backup of its own: Backup Ready is 0");
+        return BackupText::tr("it holds no backup of its own: Backup Ready is 0");
     return {};
 }
 

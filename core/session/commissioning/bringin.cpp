@@ -6,9 +6,8 @@
 #include "core/session/procedures/atbaud.h"
 #include "core/session/procedures/movedevices.h"
 #include "core/session/settings/applysettings.h"
+#include "core/session/texts.h"
 #include "core/session/volatilespan.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 
@@ -17,14 +16,11 @@ namespace {
 
 constexpr int LooksByReads = 3; ///< each of two reads at least
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commissioning", text);
-}
-
 tl::unexpected<Error> untouched(ErrorKind kind, const QString &why)
 {
-    return failure(kind, why.endsWith(tr("nothing was written")) ? why : tr("%1; nothing was written").arg(why));
+    return failure(kind, why.endsWith(CommissioningText::tr("nothing was written"))
+                             ? why
+                             : CommissioningText::tr("%1; nothing was written").arg(why));
 }
 
 tl::unexpected<Error> untouched(const Error &error)
@@ -82,7 +78,8 @@ private:
         const QString unfit = unfitText(m_joint, m_now.modelNumber, m_now.firmware, m_what.plan.catalog);
         if (!unfit.isEmpty())
             return untouched(ErrorKind::InvalidArgument, unfit);
-        return m_table ? Result<void>() : untouched(ErrorKind::NotSupported, tr("its registers are not known"));
+        return m_table ? Result<void>()
+                       : untouched(ErrorKind::NotSupported, CommissioningText::tr("its registers are not known"));
     }
 
     /// Also that its registers can be read at all.
@@ -190,7 +187,7 @@ private:
         m_torque = !values->empty() && values->front().data.front() != 0;
         if (m_torque && !m_what.plan.options.mayTurnTorqueOff)
             return untouched(ErrorKind::InvalidArgument,
-                             tr("%1 is under torque, which locks its EEPROM").arg(m_table->model()));
+                             CommissioningText::tr("%1 is under torque, which locks its EEPROM").arg(m_table->model()));
         return {};
     }
 
@@ -287,7 +284,7 @@ private:
         const Result<void> done = outcome ? problemOf(*outcome) : tl::unexpected(outcome.error());
         if (done || endsCommissioning(done.error()))
             return done;
-        return failure(done.error().kind, tr("It stands at its place (%1), but is not set up: %2")
+        return failure(done.error().kind, CommissioningText::tr("It stands at its place (%1), but is not set up: %2")
                                               .arg(placeText(m_joint.place), done.error().text));
     }
 
@@ -320,8 +317,8 @@ private:
                             && values->size() == 2 && values->front().data.front() == m_joint.place.id
                             && (!baud || m_table->baudRate(values->back().data.front()) == m_joint.place.baudRate);
         if (!isSame)
-            return failure(ErrorKind::NotConfirmed,
-                           tr("What answers at %1 does not read back as %2").arg(placeText(m_joint.place), name()));
+            return failure(ErrorKind::NotConfirmed, CommissioningText::tr("What answers at %1 does not read back as %2")
+                                                        .arg(placeText(m_joint.place), name()));
         const auto doubt = doubtByReads(m_context, m_now, *m_table);
         if (!doubt)
             return tl::unexpected(doubt.error());
@@ -382,8 +379,9 @@ Result<std::optional<CommissionMemory::HalfDone>> leftHalfDone(const CommissionR
     const MoveDevice *device = isOne ? &left->devices[left->steps.front().device] : nullptr;
     if (!device || !plan.list.at(device->goal, device->place.modelNumber, CommissionState::Waiting)) {
         return failure(ErrorKind::InvalidArgument,
-                       tr("On this line %1; that has to be ended first: dxl move --resume goes on with them, --forget "
-                          "leaves them so")
+                       CommissioningText::tr(
+                           "On this line %1; that has to be ended first: dxl move --resume goes on with them, --forget "
+                           "leaves them so")
                            .arg(unfinishedText(*left)));
     }
     const MoveStep &step = left->steps[std::min(left->next, left->steps.size() - 1)];

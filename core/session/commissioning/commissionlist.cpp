@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/commissioning/commissionlist.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <set>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commissioning", text);
-}
 
 tl::unexpected<Error> wrong(const QString &text)
 {
@@ -52,17 +46,20 @@ Result<void> check(const CommissionJoint &joint, const Catalog &catalog)
 {
     const QString who = jointText(joint);
     if (joint.name.size() > LongestJointName || joint.name.contains(u'\n'))
-        return wrong(tr("A joint's name is one line of at most %1 characters").arg(LongestJointName));
+        return wrong(
+            CommissioningText::tr("A joint's name is one line of at most %1 characters").arg(LongestJointName));
     if (joint.place.id < 0 || joint.place.id > MaximumId)
-        return wrong(tr("%1: an ID is 0 to %2").arg(who).arg(MaximumId));
+        return wrong(CommissioningText::tr("%1: an ID is 0 to %2").arg(who).arg(MaximumId));
     const ControlTablePtr table = tableOf(joint, catalog);
     if (!table)
-        return wrong(tr("%1: model %2 is not known").arg(who).arg(joint.modelNumber));
+        return wrong(CommissioningText::tr("%1: model %2 is not known").arg(who).arg(joint.modelNumber));
     if (!table->baudCode(joint.place.baudRate))
-        return wrong(tr("%1: %2 does not offer %3 bps").arg(who, table->model()).arg(joint.place.baudRate));
+        return wrong(
+            CommissioningText::tr("%1: %2 does not offer %3 bps").arg(who, table->model()).arg(joint.place.baudRate));
     if (!table->find(Known::Id) || table->axes() > 1)
-        return wrong(tr("%1: %2 can't be set up here: it has more than one ID, or none that is known")
-                         .arg(who, table->model()));
+        return wrong(
+            CommissioningText::tr("%1: %2 can't be set up here: it has more than one ID, or none that is known")
+                .arg(who, table->model()));
     return joint.settings.empty() ? Result<void>() : checkSettings(joint, *table);
 }
 
@@ -93,22 +90,23 @@ QByteArray csvLine(const QStringList &cells)
 
 QString jointText(const CommissionJoint &joint)
 {
-    return joint.name.isEmpty() ? tr("ID %1").arg(joint.place.id) : tr("%1 (ID %2)").arg(joint.name).arg(joint.place.id);
+    return joint.name.isEmpty() ? CommissioningText::tr("ID %1").arg(joint.place.id)
+                                : CommissioningText::tr("%1 (ID %2)").arg(joint.name).arg(joint.place.id);
 }
 
 Result<CommissionList> CommissionList::make(const Catalog &catalog, std::vector<CommissionJoint> joints)
 {
     if (joints.empty() || joints.size() > MostJoints)
-        return wrong(tr("A list has 1 to %1 joints").arg(MostJoints));
+        return wrong(CommissioningText::tr("A list has 1 to %1 joints").arg(MostJoints));
     std::set<MovePlace> places;
     std::set<QString> names;
     for (const CommissionJoint &joint : joints) {
         if (const auto fine = check(joint, catalog); !fine)
             return tl::unexpected(fine.error());
         if (!places.insert(joint.place).second)
-            return wrong(tr("%1 is wanted twice").arg(placeText(joint.place)));
+            return wrong(CommissioningText::tr("%1 is wanted twice").arg(placeText(joint.place)));
         if (!joint.name.isEmpty() && !names.insert(joint.name).second)
-            return wrong(tr("Two joints have the name %1").arg(joint.name));
+            return wrong(CommissioningText::tr("Two joints have the name %1").arg(joint.name));
     }
     CommissionList list;
     list.m_states.assign(joints.size(), CommissionState::Waiting);
@@ -180,7 +178,8 @@ Result<std::vector<WantedSetting>> wantedSettings(const CommissionJoint &joint, 
     for (const CommissionSetting &setting : joint.settings) {
         const int field = table.indexOf(setting.name);
         if (field < 0)
-            return wrong(tr("%1: %2 has no register %3").arg(jointText(joint), table.model(), setting.name));
+            return wrong(
+                CommissioningText::tr("%1: %2 has no register %3").arg(jointText(joint), table.model(), setting.name));
         wanted.push_back({field, setting.raw});
     }
     return wanted;
@@ -189,10 +188,10 @@ Result<std::vector<WantedSetting>> wantedSettings(const CommissionJoint &joint, 
 QString unfitText(const CommissionJoint &joint, int modelNumber, int firmware, const Catalog &catalog)
 {
     if (modelNumber != joint.modelNumber)
-        return tr("this is model %1, and %2 shall be model %3")
+        return CommissioningText::tr("this is model %1, and %2 shall be model %3")
             .arg(modelName(catalog, modelNumber), jointText(joint), modelName(catalog, joint.modelNumber));
     if (firmware < joint.minimumFirmware)
-        return tr("this %1 has firmware %2, and %3 needs %4 at least")
+        return CommissioningText::tr("this %1 has firmware %2, and %3 needs %4 at least")
             .arg(modelName(catalog, modelNumber), QString::number(firmware), jointText(joint),
                  QString::number(joint.minimumFirmware));
     return {};
@@ -200,7 +199,9 @@ QString unfitText(const CommissionJoint &joint, int modelNumber, int firmware, c
 
 QStringList labelHeads()
 {
-    return {tr("Joint"), tr("ID"), tr("Baud rate"), tr("Model"), tr("Model number"), tr("Firmware"), tr("Checked")};
+    return {CommissioningText::tr("Joint"),  CommissioningText::tr("ID"),           CommissioningText::tr("Baud rate"),
+            CommissioningText::tr("Model"),  CommissioningText::tr("Model number"), CommissioningText::tr("Firmware"),
+            CommissioningText::tr("Checked")};
 }
 
 std::vector<QStringList> labelRows(const CommissionList &list, const Catalog &catalog)

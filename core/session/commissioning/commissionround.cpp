@@ -4,9 +4,8 @@
 #include "core/bus/messages.h"
 #include "core/session/commissioning/bringin.h"
 #include "core/session/procedures/atbaud.h"
+#include "core/session/texts.h"
 #include "core/session/volatilespan.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <map>
@@ -16,19 +15,14 @@ namespace {
 
 constexpr int MostAttempts = 3; ///< at one servo, until a person says so or it was unplugged
 
-using Device = CommissionMemory::Device;
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commissioning", text);
-}
+using Remembered = CommissionMemory::Device;
 
 MovePlace placeOf(const Found &found)
 {
     return {found.baudRate, found.id};
 }
 
-Device deviceOf(const Found &found)
+Remembered deviceOf(const Found &found)
 {
     return {placeOf(found), found.modelNumber};
 }
@@ -68,8 +62,9 @@ public:
             if (!view)
                 return tl::unexpected(view.error());
             --left;
-            const bool isNews = !view->unreadable.isEmpty()
-                                || std::ranges::any_of(view->heard, [&](const Found &found) { return !isKnown(found); });
+            const bool isNews =
+                !view->unreadable.isEmpty()
+                || std::ranges::any_of(view->heard, [&](const Found &found) { return !isKnown(found); });
             if (isNews && isAlone)
                 left = m_rates.size() - 1;
             isAlone = isAlone && !isNews;
@@ -100,7 +95,7 @@ private:
             return tl::unexpected(scan.error());
         View view{std::move(scan->devices), {}};
         if (!scan->unreadable.isEmpty())
-            view.unreadable << tr("%1 at %2 bps").arg(scan->unreadable).arg(rate);
+            view.unreadable << CommissioningText::tr("%1 at %2 bps").arg(scan->unreadable).arg(rate);
         return view;
     }
 
@@ -168,7 +163,7 @@ private:
         return {};
     }
 
-    static bool isAmong(const std::vector<Device> &devices, const Found &found)
+    static bool isAmong(const std::vector<Remembered> &devices, const Found &found)
     {
         return std::ranges::find(devices, deviceOf(found)) != devices.end();
     }
@@ -189,7 +184,7 @@ private:
 
     void forgetWhoIsGone()
     {
-        const auto isGone = [this](const Device &device) {
+        const auto isGone = [this](const Remembered &device) {
             return std::ranges::none_of(m_round.heard, [&](const Found &found) { return deviceOf(found) == device; });
         };
         std::erase_if(memory().bystanders, isGone);
@@ -202,13 +197,15 @@ private:
     {
         for (const Found &found : view.heard) {
             if (!found.doubt.isEmpty())
-                return tr("There seem to be two servos at once at %1 bps: %2. Unplug one of them; nothing was written")
+                return CommissioningText::tr(
+                           "There seem to be two servos at once at %1 bps: %2. Unplug one of them; nothing was written")
                     .arg(found.baudRate)
                     .arg(found.doubt);
         }
         if (!view.unreadable.isEmpty())
-            return tr("Something answers that can't be read, as two servos at once do: %1. Unplug one; nothing was "
-                      "written")
+            return CommissioningText::tr(
+                       "Something answers that can't be read, as two servos at once do: %1. Unplug one; nothing was "
+                       "written")
                 .arg(view.unreadable.join(QStringLiteral("; ")));
         return {};
     }
@@ -236,10 +233,12 @@ private:
             return bring(fresh.front());
         QStringList who;
         for (const Found &found : fresh)
-            who << tr("%1 at %2").arg(modelName(m_plan.catalog, found.modelNumber), placeText(placeOf(found)));
-        m_round.problem = tr("There are %1 new servos at once: %2. Plug in one after the other; nothing was written")
+            who << CommissioningText::tr("%1 at %2")
+                       .arg(modelName(m_plan.catalog, found.modelNumber), placeText(placeOf(found)));
+        m_round.problem = CommissioningText::tr(
+                              "There are %1 new servos at once: %2. Plug in one after the other; nothing was written")
                               .arg(fresh.size())
-                              .arg(who.join(tr(" and ")));
+                              .arg(who.join(CommissioningText::tr(" and ")));
         return {};
     }
 

@@ -2,18 +2,12 @@
 #include "core/session/commissioning/fromprofile.h"
 
 #include "core/session/profile/profilevalues.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commissioning", text);
-}
 
 tl::unexpected<Error> wrong(const QString &file, const ProfileRegister &setting, const QString &why)
 {
@@ -41,7 +35,8 @@ Result<CommissionJoint> jointOf(const Profile &profile, const ProfileJoint &from
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         const ProfileRegister &setting = from.registers[i];
         if (!wanted[i].field)
-            return wrong(profile.file, setting, tr("%1 has no register %2").arg(table->model(), setting.name));
+            return wrong(profile.file, setting,
+                         CommissioningText::tr("%1 has no register %2").arg(table->model(), setting.name));
         if (!wanted[i].raw)
             return wrong(profile.file, setting, wanted[i].raw.error().text);
         joint.settings.push_back({wanted[i].field->name, *wanted[i].raw});
@@ -68,10 +63,10 @@ Result<CommissionList> commissionList(const Catalog &catalog, const QString &mod
 {
     const Catalog::ModelInfo *info = catalog.model(model);
     if (!info)
-        return failure(ErrorKind::InvalidArgument, tr("There is no model %1").arg(model));
+        return failure(ErrorKind::InvalidArgument, CommissioningText::tr("There is no model %1").arg(model));
     if (!names.isEmpty() && names.size() != static_cast<qsizetype>(ids.size()))
         return failure(ErrorKind::InvalidArgument,
-                       tr("There are %1 names for %2 IDs").arg(names.size()).arg(ids.size()));
+                       CommissioningText::tr("There are %1 names for %2 IDs").arg(names.size()).arg(ids.size()));
     std::vector<CommissionJoint> joints;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const QString name = names.isEmpty() ? QString() : names[static_cast<qsizetype>(i)];

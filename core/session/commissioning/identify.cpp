@@ -4,16 +4,10 @@
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
 #include "core/session/procedures/atbaud.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Commissioning", text);
-}
 
 std::vector<const Field *> ledsOf(const ControlTable &table)
 {
@@ -66,7 +60,8 @@ Result<void> identifyByLed(JobContext &context, const Found &device, const Contr
     constexpr int Slices = 15;
     const std::vector<const Field *> leds = ledsOf(table);
     if (leds.empty())
-        return failure(ErrorKind::NotSupported, tr("%1 has no LED to be told by").arg(table.model()));
+        return failure(ErrorKind::NotSupported,
+                       CommissioningText::tr("%1 has no LED to be told by").arg(table.model()));
     for (const Field *led : leds) {
         if (const auto lit = light(context, device, table, *led, true, hooks); !lit)
             return lit;

@@ -9,7 +9,7 @@
 namespace dynascope {
 namespace {
 
-constexpr qint64 LargestFile = 16 * 1024 * 1024; ///< a job writes a few hundred lines
+constexpr qint64 LargestAhead = 16 * 1024 * 1024; ///< a job writes a few hundred lines
 
 } // namespace
 
@@ -100,7 +100,7 @@ void JournalAheadFiles::read(const Over &over, const std::function<void(JournalE
         QFile file(path);
         if (!file.open(QIODevice::ReadOnly))
             continue;
-        const QList<QByteArray> lines = file.read(LargestFile).split('\n');
+        const QList<QByteArray> lines = file.read(LargestAhead).split('\n');
         for (const QByteArray &line : lines) {
             if (auto entry = journalEntryFromJson(line); entry && !entry->ahead.isEmpty())
                 take(std::move(*entry));

@@ -16,7 +16,7 @@ constexpr int Format = 1;
 constexpr qsizetype LongestText = 1024;
 constexpr qsizetype MostChanges = 128;
 constexpr std::size_t LongestSpan = 2048; ///< bytes
-constexpr int LargestBaudRate = 100'000'000, LargestId = 253;
+constexpr int HighestBaudRate = 100'000'000, HighestId = 253;
 
 constexpr std::array Kinds{"write", "reboot", "reset", "clear", "backup", "restore", "packet"};
 constexpr std::array Authors{"window", "dxl", "profile", "undo", "stop", "packing"};
@@ -143,7 +143,7 @@ std::optional<JournalDevice> deviceOf(const QJsonObject &object)
     const auto number = numberOf(object, QLatin1String("number"), 65535);
     const auto firmware = numberOf(object, QLatin1String("firmware"), 255);
     const auto id = numberOf(object, QLatin1String("id"), 254); // a packet may go to everybody
-    const auto baud = numberOf(object, QLatin1String("baud"), LargestBaudRate);
+    const auto baud = numberOf(object, QLatin1String("baud"), HighestBaudRate);
     if (!number || !firmware || !id || !baud)
         return std::nullopt;
     device.modelNumber = *number;
@@ -294,8 +294,8 @@ Result<JournalEntry> journalEntryFromJson(const QByteArray &line)
         return tl::unexpected(changes.error());
     if (object.contains(QLatin1String("moved"))) {
         const QJsonObject moved = object.value(QLatin1String("moved")).toObject();
-        const auto id = numberOf(moved, QLatin1String("id"), LargestId);
-        const auto baud = numberOf(moved, QLatin1String("baud"), LargestBaudRate);
+        const auto id = numberOf(moved, QLatin1String("id"), HighestId);
+        const auto baud = numberOf(moved, QLatin1String("baud"), HighestBaudRate);
         if (!id || !baud)
             return damaged(QStringLiteral("an entry moves a device to no place"));
         entry.movedTo = JournalPlace{*id, *baud};

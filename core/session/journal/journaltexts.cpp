@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/journal/journaltexts.h"
 
+#include "core/session/texts.h"
 #include "core/table/catalog.h"
 #include "core/table/units.h"
 
-#include <QCoreApplication>
-
 namespace dynascope {
 namespace {
-
-QString tr(const char *text, int count = -1)
-{
-    return QCoreApplication::translate("Journal", text, nullptr, count);
-}
 
 /// What comes from a file and stands in a comment stays in its line.
 QString oneLine(QString text)
@@ -86,7 +80,7 @@ QString whatText(const JournalEntry &entry)
     const auto others = static_cast<int>(entry.changes.size()) - 1;
     if (others == 0)
         return registerText(entry.changes.front());
-    return tr("%1 and %2 more").arg(registerText(entry.changes.front())).arg(others);
+    return JournalText::tr("%1 and %2 more").arg(registerText(entry.changes.front())).arg(others);
 }
 
 QString changeText(const Catalog &catalog, const JournalEntry &entry)

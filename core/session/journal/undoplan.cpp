@@ -3,19 +3,13 @@
 
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
+#include "core/session/texts.h"
 #include "core/table/catalog.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Journal", text);
-}
 
 const JournalEntry *find(const JournalEntries &entries, qint64 number)
 {
@@ -145,16 +139,18 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
     const Field *field = table ? table->find(isId ? Known::Id : Known::BaudRate) : nullptr;
     if (!field || field->address != main.address || field->size != 1 || main.before.size() != 1
         || main.after.size() != 1)
-        return failure(ErrorKind::InvalidArgument, tr("Entry %1 names a register that is not there").arg(entry.number));
+        return failure(ErrorKind::InvalidArgument,
+                       JournalText::tr("Entry %1 names a register that is not there").arg(entry.number));
     const int wanted = step.direction == Direction::Undo ? main.before.front() : main.after.front();
     const int held = step.direction == Direction::Undo ? main.after.front() : main.before.front();
     if (isId && wanted > MaximumId)
-        return failure(ErrorKind::InvalidArgument,
-                       tr("Entry %1 speaks of ID %2, which no device can have").arg(entry.number).arg(wanted));
+        return failure(
+            ErrorKind::InvalidArgument,
+            JournalText::tr("Entry %1 speaks of ID %2, which no device can have").arg(entry.number).arg(wanted));
     const std::optional<int> heldRate = table->baudRate(held), wantedRate = table->baudRate(wanted);
     if (isId ? step.place.id != held : step.place.baudRate != heldRate.value_or(0)) {
         return failure(ErrorKind::InvalidArgument,
-                       tr("%1 has moved since entry %2, to ID %3 at %4 bps; nothing was written")
+                       JournalText::tr("%1 has moved since entry %2, to ID %3 at %4 bps; nothing was written")
                            .arg(step.place.name)
                            .arg(entry.number)
                            .arg(step.place.id)
@@ -167,7 +163,7 @@ Result<UndoStep> planMove(UndoStep step, const JournalEntry &entry, const Contro
         step.newBaud = {step.place, *wantedRate, static_cast<std::uint8_t>(wanted), main.address,
                         options.mayTurnTorqueOff};
     } else {
-        return failure(ErrorKind::NotSupported, tr("It isn't known which baud rate %1 is").arg(wanted));
+        return failure(ErrorKind::NotSupported, JournalText::tr("It isn't known which baud rate %1 is").arg(wanted));
     }
     return step;
 }
@@ -264,24 +260,24 @@ QString whyNot(const JournalEntries &entries, const std::set<qint64> &undone, qi
 {
     const JournalEntry *entry = find(entries, number);
     if (!entry)
-        return tr("The journal has no entry %1").arg(number);
+        return JournalText::tr("The journal has no entry %1").arg(number);
     if (entry->undoes > 0)
-        return tr("Entry %1 is itself an undo: redo %2").arg(number).arg(entry->undoes);
+        return JournalText::tr("Entry %1 is itself an undo: redo %2").arg(number).arg(entry->undoes);
     if (entry->redoes > 0)
-        return tr("Entry %1 is a redo: undo %2").arg(number).arg(entry->redoes);
+        return JournalText::tr("Entry %1 is a redo: undo %2").arg(number).arg(entry->redoes);
     if (entry->kind != JournalKind::Write)
-        return tr("Entry %1 is no write of registers: what it changed isn't known").arg(number);
+        return JournalText::tr("Entry %1 is no write of registers: what it changed isn't known").arg(number);
     if (entry->state == JournalState::Failed)
-        return tr("Entry %1 failed and changed nothing").arg(number);
+        return JournalText::tr("Entry %1 failed and changed nothing").arg(number);
     if (!isRevertible(*entry))
-        return tr("Entry %1 does not know what it replaced").arg(number);
+        return JournalText::tr("Entry %1 does not know what it replaced").arg(number);
     const bool isUndone = undone.contains(number);
     if (isUndone && direction == Direction::Undo)
-        return tr("Entry %1 is undone already").arg(number);
+        return JournalText::tr("Entry %1 is undone already").arg(number);
     if (!isUndone && direction == Direction::Redo)
-        return tr("Entry %1 is not undone").arg(number);
+        return JournalText::tr("Entry %1 is not undone").arg(number);
     if (wouldSwitchOn(*entry, direction))
-        return tr("Entry %1 would switch torque on, which is only ever done by hand").arg(number);
+        return JournalText::tr("Entry %1 would switch torque on, which is only ever done by hand").arg(number);
     return {};
 }
 
@@ -313,7 +309,7 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
     const JournalPlace place = placeNow(entries, entry);
     if (place.id < 0 || place.id > MaximumId)
         return failure(ErrorKind::InvalidArgument,
-                       tr("Entry %1 speaks of ID %2, which no device can have").arg(number).arg(place.id));
+                       JournalText::tr("Entry %1 speaks of ID %2, which no device can have").arg(number).arg(place.id));
     const ControlTablePtr table = catalog.find(entry.device.modelNumber, entry.device.firmware);
     UndoStep step;
     step.number = number;
@@ -350,11 +346,12 @@ Result<UndoStep> planUndo(const JournalEntries &entries, qint64 number, Directio
         }
         plan.registers.push_back(revertRegister(change, direction, table.get()));
         if (hidesTorqueOn(plan.registers.back(), table.get()))
-            return failure(ErrorKind::InvalidArgument, tr("Entry %1 would switch torque on").arg(number));
+            return failure(ErrorKind::InvalidArgument, JournalText::tr("Entry %1 would switch torque on").arg(number));
         if (leadsNobodyKnowsWhere(plan.registers.back(), change, table.get()))
             return failure(
                 ErrorKind::NotSupported,
-                tr("Entry %1 was written through indirect addresses: write its registers yourself").arg(number));
+                JournalText::tr("Entry %1 was written through indirect addresses: write its registers yourself")
+                    .arg(number));
     }
     keepOthers(plan, main, table.get());
     const Field *level = table ? table->find(Known::StatusReturnLevel) : nullptr;

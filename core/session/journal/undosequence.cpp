@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/journal/undosequence.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <limits>
@@ -9,14 +8,10 @@
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Journal", text);
-}
-
 Error ofEntry(const UndoStep &step, Error error)
 {
-    const QString what = step.direction == Direction::Undo ? tr("Undo of entry %1: %2") : tr("Redo of entry %1: %2");
+    const QString what = step.direction == Direction::Undo ? JournalText::tr("Undo of entry %1: %2")
+                                                           : JournalText::tr("Redo of entry %1: %2");
     error.text = what.arg(QString::number(step.number), error.text);
     return error;
 }

@@ -2,16 +2,10 @@
 #include "core/session/journal/journalwrites.h"
 #include "core/session/journal/undoplan.h"
 #include "core/session/procedures/atbaud.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Journal", text);
-}
 
 bool isOurs(const Found &found, const UndoStep &step)
 {
@@ -48,10 +42,11 @@ Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
     if (!there)
         return tl::unexpected(there.error());
     if (!isOurs(*there, step)) {
-        return failure(ErrorKind::NotFound, tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
-                                                .arg(step.place.id)
-                                                .arg(step.place.baudRate)
-                                                .arg(step.place.name));
+        return failure(ErrorKind::NotFound,
+                       JournalText::tr("Another device answers as ID %1 at %2 bps, not %3; nothing was written")
+                           .arg(step.place.id)
+                           .arg(step.place.baudRate)
+                           .arg(step.place.name));
     }
     const bool mayTurnOff = step.newId ? step.newId->turnTorqueOff : step.newBaud->turnTorqueOff;
     if (step.registers.torqueAddress && !mayTurnOff) {
@@ -60,7 +55,7 @@ Result<UndoResult> carryOut(JobContext &context, const UndoStep &step)
         if (torque && torque->data.front() != 0) {
             result.registers.missing = Consent::TorqueOff;
             result.registers.why =
-                tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(step.place.name);
+                JournalText::tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(step.place.name);
             return result;
         }
     }
@@ -94,9 +89,9 @@ JournalEntry outcomeOf(const UndoStep &step, const Result<UndoResult> &result)
         change.shown = bytesIn(result->registers.after, change.address, change.after.size());
     QStringList notes;
     if (result->registers.torqueTurnedOff)
-        notes << tr("torque was turned off for it");
+        notes << JournalText::tr("torque was turned off for it");
     if (result->registers.torqueStaysOff)
-        notes << tr("torque stays off");
+        notes << JournalText::tr("torque stays off");
     for (const LeftRegister &left : result->registers.left) {
         notes << left.why;
         if (left.what.address == outcome.changes.front().address)

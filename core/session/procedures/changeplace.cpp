@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Changes of ID and baud rate, and Factory Reset: after them the device stands elsewhere.
 #include "core/bus/messages.h"
+#include "core/bus/operations.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/procedures/procedures.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <chrono>
 
@@ -12,11 +12,6 @@ namespace dynascope {
 namespace {
 
 using namespace std::chrono_literals;
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Procedures", text);
-}
 
 /// EEPROM is locked under torque: turn it off where allowed, else refuse.
 Result<void> freeEeprom(Bus &bus, const DevicePlace &place, bool turnTorqueOff)
@@ -27,8 +22,9 @@ Result<void> freeEeprom(Bus &bus, const DevicePlace &place, bool turnTorqueOff)
     if (torque->data.front() == 0)
         return {};
     if (!turnTorqueOff) {
-        return failure(ErrorKind::InvalidArgument,
-                       tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(place.name));
+        return failure(
+            ErrorKind::InvalidArgument,
+            ProcedureText::tr("%1 is under torque, which locks its EEPROM; nothing was written").arg(place.name));
     }
     const auto off = writeVerified(bus, {place.id, place.torqueAddress, {0}});
     return off ? Result<void>() : tl::unexpected(off.error());
@@ -36,7 +32,7 @@ Result<void> freeEeprom(Bus &bus, const DevicePlace &place, bool turnTorqueOff)
 
 QString placeText(std::uint8_t id, int baudRate)
 {
-    return tr("ID %1 at %2 bps").arg(id).arg(baudRate);
+    return ProcedureText::tr("ID %1 at %2 bps").arg(id).arg(baudRate);
 }
 
 QString placeText(const DevicePlace &place)
@@ -45,11 +41,6 @@ QString placeText(const DevicePlace &place)
 }
 
 /// Not about the place: nothing more is asked.
-bool endsAll(const Error &error)
-{
-    return error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::PortLost;
-}
-
 /// Says that nobody was heard there, but not that nobody is: another one's answer, or what may be an earlier one's.
 bool isInconclusive(const Error &error)
 {
@@ -78,7 +69,7 @@ Result<void> checkFree(JobContext &context, const DevicePlace &place, const Devi
     const AtBaud there(bus, place.baudRate);
     if (!there.entered() && there.entered().error().kind == ErrorKind::PortUnsuitable) {
         return failure(ErrorKind::PortUnsuitable,
-                       tr("%1; nothing was written").arg(there.entered().error().text));
+                       ProcedureText::tr("%1; nothing was written").arg(there.entered().error().text));
     }
     if (!there.entered())
         return there.entered();
@@ -95,9 +86,10 @@ Result<void> checkFree(JobContext &context, const DevicePlace &place, const Devi
     if (!reply && endsAll(reply.error()))
         return tl::unexpected(reply.error());
     if (!reply && !isSomebody(reply.error()))
-        return failure(reply.error().kind, tr("%1; nothing was written").arg(reply.error().text));
-    return failure(ErrorKind::InvalidArgument,
-                   tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
+        return failure(reply.error().kind, ProcedureText::tr("%1; nothing was written").arg(reply.error().text));
+    return failure(
+        ErrorKind::InvalidArgument,
+        ProcedureText::tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
 }
 
 /// EEPROM writes take up to tens of milliseconds and their status may come from either place: never sent twice.
@@ -132,8 +124,9 @@ Result<Found> changePlace(JobContext &context, const DevicePlace &from, const De
         return tl::unexpected(sent.error());
     auto found = lookForMoved(context, from, to);
     if (found && isAt(*found, from))
-        return failure(ErrorKind::NotConfirmed,
-                       tr("%1 still answers at %2: it did not take the change").arg(from.name, placeText(from)));
+        return failure(
+            ErrorKind::NotConfirmed,
+            ProcedureText::tr("%1 still answers at %2: it did not take the change").arg(from.name, placeText(from)));
     return found;
 }
 
@@ -162,10 +155,10 @@ Result<Found> lookForMoved(JobContext &context, const DevicePlace &from, const D
     }
     if (!moves) {
         return failure(ErrorKind::NotConfirmed,
-                       tr("%1 does not answer at %2; scan to find it").arg(from.name, placeText(to)));
+                       ProcedureText::tr("%1 does not answer at %2; scan to find it").arg(from.name, placeText(to)));
     }
     return failure(ErrorKind::NotConfirmed,
-                   tr("%1 answers neither at %2 nor at %3; scan to find it")
+                   ProcedureText::tr("%1 answers neither at %2 nor at %3; scan to find it")
                        .arg(from.name, placeText(to), placeText(from)));
 }
 
@@ -204,10 +197,12 @@ Result<void> resetToFactory(JobContext &context, const FactoryResetPlan &plan)
     if (!sent && !mayHaveArrived(sent.error()))
         return sent;
     if (!sent && !moves) {
-        return failure(ErrorKind::NotConfirmed,
-                       tr("%1 did not confirm the reset, and would stand at the same place either way; read its registers to "
-                          "see whether it took it")
-                           .arg(plan.place.name));
+        return failure(
+            ErrorKind::NotConfirmed,
+            ProcedureText::tr(
+                "%1 did not confirm the reset, and would stand at the same place either way; read its registers to "
+                "see whether it took it")
+                .arg(plan.place.name));
     }
     return {};
 }

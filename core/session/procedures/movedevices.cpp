@@ -3,19 +3,13 @@
 
 #include "core/bus/messages.h"
 #include "core/session/procedures/atbaud.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <set>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Procedures", text);
-}
 
 bool isSilence(const Error &error)
 {
@@ -43,7 +37,7 @@ Result<void> tryRates(Bus &bus, const MovePlan &plan)
         const AtBaud there(bus, rate);
         if (!there.entered())
             return failure(there.entered().error().kind,
-                           tr("%1; nothing was written").arg(there.entered().error().text));
+                           ProcedureText::tr("%1; nothing was written").arg(there.entered().error().text));
     }
     return {};
 }
@@ -91,7 +85,7 @@ Result<void> checkPresent(JobContext &context, const MovePlan &plan)
             return tl::unexpected(there.error());
         if (!*there) {
             return failure(ErrorKind::NotFound,
-                           tr("%1 does not answer as %2, or another device does; nothing was written")
+                           ProcedureText::tr("%1 does not answer as %2, or another device does; nothing was written")
                                .arg(plan.devices[i].place.name, placeText(place)));
         }
     }
@@ -120,8 +114,9 @@ Result<void> checkFree(JobContext &context, const MovePlan &plan)
         const auto &reply = answer->replies.front();
         // Noise is looked into when its turn comes.
         if (reply || reply.error().kind == ErrorKind::DamagedCrc || reply.error().kind == ErrorKind::Refused) {
-            return failure(ErrorKind::InvalidArgument,
-                           tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
+            return failure(
+                ErrorKind::InvalidArgument,
+                ProcedureText::tr("%1 is taken: something answers there; nothing was written").arg(placeText(place)));
         }
     }
     return {};
@@ -138,7 +133,7 @@ Result<Found> carryOut(JobContext &context, const MovePlan &plan, const MoveStep
         std::ranges::find_if(device.rates, [&](const auto &each) { return each.first == step.to.baudRate; });
     if (rate == device.rates.end())
         return failure(ErrorKind::InvalidArgument,
-                       tr("%1 does not offer %2 bps").arg(device.place.name).arg(step.to.baudRate));
+                       ProcedureText::tr("%1 does not offer %2 bps").arg(device.place.name).arg(step.to.baudRate));
     return changeBaud(context, {from, step.to.baudRate, static_cast<std::uint8_t>(rate->second), device.baudAddress,
                                 plan.turnTorqueOff});
 }
@@ -180,8 +175,8 @@ Result<MoveSurvey> surveyMoves(JobContext &context, const MoveSurveyPlan &plan)
             return tl::unexpected(there.entered().error());
         const auto raw = read(context.bus(), {each.place.id, each.address, 1});
         if (!raw && !isSilence(raw.error()) && raw.error().kind != ErrorKind::Refused) {
-            return failure(raw.error().kind,
-                           tr("The Secondary ID of %1 could not be read: %2").arg(each.place.name, raw.error().text));
+            return failure(raw.error().kind, ProcedureText::tr("The Secondary ID of %1 could not be read: %2")
+                                                 .arg(each.place.name, raw.error().text));
         }
         survey.secondaries.push_back(raw ? std::optional<int>(raw->data.front()) : std::nullopt);
     }

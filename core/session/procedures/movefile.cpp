@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/procedures/movefile.h"
+#include "core/session/texts.h"
 
-#include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
@@ -13,12 +13,7 @@
 namespace dynascope {
 namespace {
 
-constexpr qint64 LargestFile = 1024 * 1024;
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Procedures", text);
-}
+constexpr qint64 LargestPlan = 1024 * 1024;
 
 } // namespace
 
@@ -47,8 +42,8 @@ Result<MovePlan> MoveFile::load() const
 {
     QFile file(m_path);
     if (m_path.isEmpty() || !file.open(QIODevice::ReadOnly))
-        return failure(ErrorKind::NotFound, tr("No moves were left half done on this line"));
-    return movePlanFromJson(file.read(LargestFile + 1));
+        return failure(ErrorKind::NotFound, ProcedureText::tr("No moves were left half done on this line"));
+    return movePlanFromJson(file.read(LargestPlan + 1));
 }
 
 Result<void> MoveFile::save(const MovePlan &plan) const
@@ -63,9 +58,9 @@ Result<void> MoveFile::save(const MovePlan &plan) const
     const QByteArray json = toJson(plan);
     QDir().mkpath(QFileInfo(m_path).path());
     if (!file.open(QIODevice::WriteOnly) || file.write(json) != json.size() || !file.commit()) {
-        return failure(
-            ErrorKind::BadFile,
-            tr("the plan can't be kept in %1 (%2), and without it nothing is moved").arg(m_path, file.errorString()));
+        return failure(ErrorKind::BadFile,
+                       ProcedureText::tr("the plan can't be kept in %1 (%2), and without it nothing is moved")
+                           .arg(m_path, file.errorString()));
     }
     return {};
 }
@@ -85,14 +80,15 @@ QString unfinishedText(const MovePlan &plan)
     for (const MoveStep &each : plan.steps)
         movers.insert(each.device);
     const QString &name = plan.devices[step.device].place.name;
-    const QString where = tr("%1 or at %2").arg(placeText(step.from), placeText(step.to));
-    const QString what = movers.size() == 1 ? tr("a move of a device") : tr("a move of %1 devices").arg(movers.size());
+    const QString where = ProcedureText::tr("%1 or at %2").arg(placeText(step.from), placeText(step.to));
+    const QString what = movers.size() == 1 ? ProcedureText::tr("a move of a device")
+                                            : ProcedureText::tr("a move of %1 devices").arg(movers.size());
     if (plan.next == 0)
-        return tr("%1 was interrupted at the first of %2 steps: %3 is at %4")
+        return ProcedureText::tr("%1 was interrupted at the first of %2 steps: %3 is at %4")
             .arg(what)
             .arg(plan.steps.size())
             .arg(name, where);
-    return tr("%1 was interrupted after step %2 of %3: %4 is at %5")
+    return ProcedureText::tr("%1 was interrupted after step %2 of %3: %4 is at %5")
         .arg(what)
         .arg(plan.next)
         .arg(plan.steps.size())

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/procedures/moveplan.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <set>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Procedures", text);
-}
-
-tl::unexpected<Error> refused(const QString &text)
-{
-    return failure(ErrorKind::InvalidArgument, text);
-}
 
 bool offers(const MoveDevice &device, int rate)
 {
@@ -95,22 +84,28 @@ Result<void> checkGoals(const std::vector<MoveDevice> &devices)
     for (const MoveDevice &device : devices) {
         const QString &name = device.place.name;
         if (!starts.insert({device.place.baudRate, device.place.id}).second)
-            return refused(tr("Two devices have %1: give one of them another ID alone first")
+            return failure(ErrorKind::InvalidArgument,
+                           ProcedureText::tr("Two devices have %1: give one of them another ID alone first")
                                .arg(placeText(MovePlace{device.place.baudRate, device.place.id})));
         if (device.goal.id < 0 || device.goal.id > MaximumId)
-            return refused(tr("%1: an ID is 0 to %2, not %3").arg(name).arg(MaximumId).arg(device.goal.id));
+            return failure(
+                ErrorKind::InvalidArgument,
+                ProcedureText::tr("%1: an ID is 0 to %2, not %3").arg(name).arg(MaximumId).arg(device.goal.id));
         if (device.goal.baudRate != device.place.baudRate && !offers(device, device.goal.baudRate))
-            return refused(tr("%1 does not offer %2 bps").arg(name).arg(device.goal.baudRate));
+            return failure(ErrorKind::InvalidArgument,
+                           ProcedureText::tr("%1 does not offer %2 bps").arg(name).arg(device.goal.baudRate));
     }
     for (const MoveDevice &one : devices) {
         for (const MoveDevice &other : devices) {
             if (&one == &other || one.goal.baudRate != other.goal.baudRate || (!one.moves() && !other.moves()))
                 continue;
             if (one.goal.id == other.goal.id)
-                return refused(
-                    tr("%1 and %2 would both have %3").arg(one.place.name, other.place.name, placeText(one.goal)));
+                return failure(ErrorKind::InvalidArgument,
+                               ProcedureText::tr("%1 and %2 would both have %3")
+                                   .arg(one.place.name, other.place.name, placeText(one.goal)));
             if (one.goal.id == other.secondaryId)
-                return refused(tr("%1 would have %2, which is the Secondary ID of %3")
+                return failure(ErrorKind::InvalidArgument,
+                               ProcedureText::tr("%1 would have %2, which is the Secondary ID of %3")
                                    .arg(one.place.name, placeText(one.goal), other.place.name));
         }
     }
@@ -121,7 +116,7 @@ Result<void> checkGoals(const std::vector<MoveDevice> &devices)
 
 QString placeText(const MovePlace &place)
 {
-    return tr("ID %1 at %2 bps").arg(place.id).arg(place.baudRate);
+    return ProcedureText::tr("ID %1 at %2 bps").arg(place.id).arg(place.baudRate);
 }
 
 MovePlace MovePlan::placeOf(std::size_t device) const
@@ -168,7 +163,8 @@ Result<MovePlan> planMoves(std::vector<MoveDevice> devices)
             ++aside;
         const auto to = aside < plan.devices.size() ? board.detour(aside) : std::nullopt;
         if (!to)
-            return refused(tr("There is no way to these places: no ID is free to step aside to"));
+            return failure(ErrorKind::InvalidArgument,
+                           ProcedureText::tr("There is no way to these places: no ID is free to step aside to"));
         go(aside, *to, true);
     }
     return plan;

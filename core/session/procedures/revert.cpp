@@ -3,22 +3,16 @@
 
 #include "core/session/journal/journalwrites.h"
 #include "core/session/procedures/atbaud.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Procedures", text);
-}
-
 tl::unexpected<Error> refused(const QString &text)
 {
-    return failure(ErrorKind::InvalidArgument, tr("%1; nothing was written").arg(text));
+    return failure(ErrorKind::InvalidArgument, ProcedureText::tr("%1; nothing was written").arg(text));
 }
 
 QString valueText(const Bytes &bytes)
@@ -79,18 +73,20 @@ private:
             return tl::unexpected(found.error());
         if (found->modelNumber != m_plan.place.modelNumber) {
             return failure(ErrorKind::NotFound,
-                           tr("Another model answers as ID %1 at %2 bps, not %3; nothing was written")
+                           ProcedureText::tr("Another model answers as ID %1 at %2 bps, not %3; nothing was written")
                                .arg(m_plan.place.id)
                                .arg(m_plan.place.baudRate)
                                .arg(m_plan.place.name));
         }
         if (m_plan.firmware >= 0 && found->firmware != m_plan.firmware) {
-            return failure(ErrorKind::NotFound,
-                           tr("%1 has firmware %2 and had %3 then: another device, or its registers may mean something "
-                              "else; nothing was written")
-                               .arg(m_plan.place.name)
-                               .arg(found->firmware)
-                               .arg(m_plan.firmware));
+            return failure(
+                ErrorKind::NotFound,
+                ProcedureText::tr(
+                    "%1 has firmware %2 and had %3 then: another device, or its registers may mean something "
+                    "else; nothing was written")
+                    .arg(m_plan.place.name)
+                    .arg(found->firmware)
+                    .arg(m_plan.firmware));
         }
         return {};
     }
@@ -115,7 +111,8 @@ private:
         values = std::move(*read);
         for (const RevertRegister &each : m_registers) {
             if (bytesIn(values, each.address, each.to.size()).empty())
-                return failure(ErrorKind::Refused, tr("%1 lets %2 not be read").arg(m_plan.place.name, each.name));
+                return failure(ErrorKind::Refused,
+                               ProcedureText::tr("%1 lets %2 not be read").arg(m_plan.place.name, each.name));
         }
         return {};
     }
@@ -149,14 +146,14 @@ private:
             const Bytes now = present(each);
             const bool isWaiting = m_plan.unchecked.contains(each.address);
             if (isMain && !isWaiting && now == each.to && now != each.from && m_plan.changedSince > 0) {
-                return refused(tr("%1 of %2 is %3 by entry %4, which came later")
+                return refused(ProcedureText::tr("%1 of %2 is %3 by entry %4, which came later")
                                    .arg(each.name, m_plan.place.name, valueText(now))
                                    .arg(m_plan.changedSince));
             }
             if (now == each.from || each.from.empty() || now == each.to || (!isMain && each.isGoal)
                 || m_plan.unchecked.contains(each.address))
                 continue;
-            return refused(tr("%1 of %2 has changed meanwhile: it is %3, not %4")
+            return refused(ProcedureText::tr("%1 of %2 has changed meanwhile: it is %3, not %4")
                                .arg(each.name, m_plan.place.name, valueText(now), valueText(each.from)));
         }
         return {};
@@ -197,33 +194,35 @@ private:
     {
         const RevertRegister &main = m_registers.front();
         if (main.isTorque && main.to.front() != 0 && !m_torque)
-            return refused(
-                tr("%1 would come under torque, which is only ever switched on by hand").arg(m_plan.place.name));
+            return refused(ProcedureText::tr("%1 would come under torque, which is only ever switched on by hand")
+                               .arg(m_plan.place.name));
         const auto hides = [&](const RevertRegister &each) {
             return each.isTorque && each.to.front() != 0 && !m_torque;
         };
         if (main.isGoal && !main.isTorque && std::ranges::any_of(m_registers, hides)) {
-            return refused(tr("Putting %1 of %2 back would switch its torque on").arg(main.name, m_plan.place.name));
+            return refused(ProcedureText::tr("Putting %1 of %2 back would switch its torque on")
+                               .arg(main.name, m_plan.place.name));
         }
         bool locked = false, moves = false;
         for (const RevertRegister &each : m_registers) {
             locked = locked || (each.isLocked && mustWrite(each));
             moves = moves || (each.isGoal && !each.isTorque && mustWrite(each));
             if (each.isGoal && !each.mayWait && mustWrite(each) && !m_torque && m_goalWakes)
-                return refused(
-                    tr("Putting %1 of %2 back would switch its torque on").arg(each.name, m_plan.place.name));
+                return refused(ProcedureText::tr("Putting %1 of %2 back would switch its torque on")
+                                   .arg(each.name, m_plan.place.name));
             m_endsTorque = m_endsTorque || (m_torque && mustWrite(each) && endsTorque(each));
         }
         if (!m_plan.torqueAddress && moves && !m_plan.mayMove)
-            needs(Consent::Motion, tr("Nobody knows whether %1 would move").arg(m_plan.place.name));
+            needs(Consent::Motion, ProcedureText::tr("Nobody knows whether %1 would move").arg(m_plan.place.name));
         if (!m_torque)
             return {};
         if ((locked || m_endsTorque) && !m_plan.mayTurnTorqueOff) {
-            needs(Consent::TorqueOff, m_endsTorque
-                                          ? tr("The torque of %1 would go off").arg(m_plan.place.name)
-                                          : tr("%1 is under torque, which locks its EEPROM").arg(m_plan.place.name));
+            needs(Consent::TorqueOff,
+                  m_endsTorque
+                      ? ProcedureText::tr("The torque of %1 would go off").arg(m_plan.place.name)
+                      : ProcedureText::tr("%1 is under torque, which locks its EEPROM").arg(m_plan.place.name));
         } else if (moves && !m_plan.mayMove && !locked && !m_endsTorque) {
-            needs(Consent::Motion, tr("%1 is under torque and would move").arg(m_plan.place.name));
+            needs(Consent::Motion, ProcedureText::tr("%1 is under torque and would move").arg(m_plan.place.name));
         }
         m_result.torqueTurnedOff = locked && !m_endsTorque;
         return {};
@@ -232,7 +231,7 @@ private:
     void needs(Consent consent, const QString &why)
     {
         m_result.missing = consent;
-        m_result.why = tr("%1; nothing was written").arg(why);
+        m_result.why = ProcedureText::tr("%1; nothing was written").arg(why);
     }
 
     Result<void> writeAll()
@@ -273,8 +272,9 @@ private:
                 return mode;
         }
         if (each.isGoal && !m_torque && m_goalWakes) {
-            m_result.left.push_back({each, tr("%1 of %2 is left as it is, since writing it would turn torque on")
-                                               .arg(each.name, m_plan.place.name)});
+            m_result.left.push_back(
+                {each, ProcedureText::tr("%1 of %2 is left as it is, since writing it would turn torque on")
+                           .arg(each.name, m_plan.place.name)});
             return {};
         }
         const auto written = writeVerified(m_bus, {m_plan.place.id, each.address, each.to});
@@ -282,8 +282,8 @@ private:
             return {};
         if (!isBeyondLimit(written.error()) || !each.mayWait)
             return tl::unexpected(written.error());
-        m_result.left.push_back(
-            {each, tr("%1 of %2 is left as it is: %3").arg(each.name, m_plan.place.name, written.error().text)});
+        m_result.left.push_back({each, ProcedureText::tr("%1 of %2 is left as it is: %3")
+                                           .arg(each.name, m_plan.place.name, written.error().text)});
         return {};
     }
 
@@ -299,7 +299,7 @@ private:
             if (isLeft || staysOff || shown == each.to)
                 continue;
             return failure(ErrorKind::NotConfirmed,
-                           tr("%1 of %2 was to be %3 and is %4")
+                           ProcedureText::tr("%1 of %2 was to be %3 and is %4")
                                .arg(each.name, m_plan.place.name, valueText(each.to), valueText(shown)));
         }
         return {};

@@ -2,8 +2,7 @@
 #include "core/session/profile/profile.h"
 
 #include "core/session/journal/journalwrites.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +10,6 @@
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
 
 bool beginsWithOneOf(const QString &name, std::initializer_list<QLatin1String> words)
 {
@@ -80,11 +74,12 @@ ProfileUse profileUse(const ControlTable &table, const Field &field)
 QString whyNotInProfile(ProfileUse use, const Field &field)
 {
     switch (use) {
-    case ProfileUse::ReadOnly: return tr("%1 can't be written").arg(field.name);
-    case ProfileUse::Place: return tr("%1 is said by the joint's \"id\" and \"baud\"").arg(field.name);
-    case ProfileUse::Motion: return tr("%1 would move the motor, which a profile never does").arg(field.name);
+    case ProfileUse::ReadOnly: return ProfileText::tr("%1 can't be written").arg(field.name);
+    case ProfileUse::Place: return ProfileText::tr("%1 is said by the joint's \"id\" and \"baud\"").arg(field.name);
+    case ProfileUse::Motion:
+        return ProfileText::tr("%1 would move the motor, which a profile never does").arg(field.name);
     case ProfileUse::Order:
-        return tr("%1 makes the device do something; a profile only says what is so").arg(field.name);
+        return ProfileText::tr("%1 makes the device do something; a profile only says what is so").arg(field.name);
     case ProfileUse::Setting:
     case ProfileUse::Calibration:
     case ProfileUse::State: break;

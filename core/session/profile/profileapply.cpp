@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/profile/profileapply.h"
 
+#include "core/bus/operations.h"
 #include "core/session/deviceplace.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
 
 bool isSelected(const ProfileApplyOptions &options, std::size_t joint)
 {
@@ -115,7 +110,10 @@ std::vector<OnLine> everybody(const ProfileComparison &comparison, const Catalog
             all.push_back({*joint.found, placeName(joint), {}, &joint});
     }
     for (const Found &other : comparison.others)
-        all.push_back({other, tr("%1 (ID %2)").arg(modelName(catalog, other.modelNumber)).arg(other.id), {}, nullptr});
+        all.push_back({other,
+                       ProfileText::tr("%1 (ID %2)").arg(modelName(catalog, other.modelNumber)).arg(other.id),
+                       {},
+                       nullptr});
     for (OnLine &device : all)
         device.table = catalog.find(device.found.modelNumber, device.found.firmware);
     return all;
@@ -125,11 +123,6 @@ bool mustMove(const OnLine &device, const ProfileApplyOptions &options)
 {
     return device.joint && device.joint->state == JointComparison::State::AtOtherBaud
            && isSelected(options, device.joint->joint);
-}
-
-bool endsAll(const Error &error)
-{
-    return error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::Stopped || error.kind == ErrorKind::PortLost;
 }
 
 } // namespace
@@ -163,7 +156,8 @@ Result<ProfileApplyPlan> planProfileApply(const Profile &profile, const ProfileC
         if (const QString fault = faultIn(profile, joint); !fault.isEmpty())
             return failure(ErrorKind::InvalidArgument, fault);
         if (unread != joint.rows.end()) {
-            plan.obstacles.push_back({joint.joint, joint.name, tr("%1: %2").arg(unread->name, unread->why)});
+            plan.obstacles.push_back(
+                {joint.joint, joint.name, ProfileText::tr("%1: %2").arg(unread->name, unread->why)});
             continue;
         }
         auto apply = planJoint(joint, comparison, options);
@@ -203,7 +197,7 @@ Result<MovePlan> planProfileMoves(const Profile &profile, const ProfileCompariso
             ++asked;
             if (!id)
                 return failure(ErrorKind::NotConfirmed,
-                               tr("the Secondary ID of %1 could not be read").arg(device.name));
+                               ProfileText::tr("the Secondary ID of %1 could not be read").arg(device.name));
             devices.back().secondaryId = *id <= MaximumId ? *id : -1; // beyond: it has none
         }
         if (mustMove(device, options)) {

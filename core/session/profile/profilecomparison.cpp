@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/profile/profilecomparison.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
 
 std::vector<RegisterComparison> compareRegisters(const ProfileJoint &joint, const ControlTable &table,
                                                  const RegisterImage &image)
@@ -31,7 +25,7 @@ std::vector<RegisterComparison> compareRegisters(const ProfileJoint &joint, cons
         const Field *field = wanted[i].field;
         if (!field) {
             row.state = State::NotThere;
-            row.why = tr("this firmware has no %1").arg(each.name);
+            row.why = ProfileText::tr("this firmware has no %1").arg(each.name);
             rows.push_back(std::move(row));
             continue;
         }
@@ -50,7 +44,7 @@ std::vector<RegisterComparison> compareRegisters(const ProfileJoint &joint, cons
                     : row.wanted->raw == row.held->raw ? State::Same
                                                        : State::Differs;
         if (row.state == State::Unread)
-            row.why = tr("the device does not show it");
+            row.why = ProfileText::tr("the device does not show it");
         rows.push_back(std::move(row));
     }
     return rows;
@@ -62,16 +56,17 @@ JointComparison::State stateOfPlace(const ProfileJoint &joint, const JointReadin
 {
     using State = JointComparison::State;
     if (!reading.found && reading.elsewhere) {
-        why = tr("answers at %1 bps, not at %2").arg(reading.elsewhere->baudRate).arg(joint.baudRate);
+        why = ProfileText::tr("answers at %1 bps, not at %2").arg(reading.elsewhere->baudRate).arg(joint.baudRate);
         return State::AtOtherBaud;
     }
     if (!reading.found) {
         const bool isSilent = !reading.error || reading.error->kind == ErrorKind::NotSent; // missed, not asked again
-        why = isSilent ? tr("nobody answers with ID %1").arg(joint.id) : reading.error->text;
+        why = isSilent ? ProfileText::tr("nobody answers with ID %1").arg(joint.id) : reading.error->text;
         return State::Missing;
     }
     if (reading.found->modelNumber != joint.modelNumber) {
-        why = tr("a %1 is there, not a %2").arg(modelName(catalog, reading.found->modelNumber), joint.model);
+        why =
+            ProfileText::tr("a %1 is there, not a %2").arg(modelName(catalog, reading.found->modelNumber), joint.model);
         return State::OtherModel;
     }
     if (!reading.found->doubt.isEmpty()) {
@@ -83,8 +78,9 @@ JointComparison::State stateOfPlace(const ProfileJoint &joint, const JointReadin
         return State::Unreadable;
     }
     if (reading.found->firmware < joint.firmware) {
-        why =
-            tr("its firmware is %1, the profile asks for %2 or newer").arg(reading.found->firmware).arg(joint.firmware);
+        why = ProfileText::tr("its firmware is %1, the profile asks for %2 or newer")
+                  .arg(reading.found->firmware)
+                  .arg(joint.firmware);
         return State::OldFirmware;
     }
     return State::AsWanted;

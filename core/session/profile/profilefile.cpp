@@ -1,33 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/profile/profilesave.h"
+#include "core/session/texts.h"
 #include "core/yaml/yamltree.h"
 
-#include <QCoreApplication>
 #include <QFile>
 #include <QFileInfo>
 #include <QSaveFile>
 
 namespace dynascope {
-namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
-
-} // namespace
-
 Result<QByteArray> profileText(const QString &path)
 {
     QFile file(path);
     if (QFileInfo(path).isDir())
-        return failure(ErrorKind::BadFile, tr("%1 is a folder").arg(path));
+        return failure(ErrorKind::BadFile, ProfileText::tr("%1 is a folder").arg(path));
     if (!file.open(QIODevice::ReadOnly))
         return failure(file.exists() ? ErrorKind::BadFile : ErrorKind::NotFound,
-                       tr("%1: %2").arg(path, file.errorString()));
+                       ProfileText::tr("%1: %2").arg(path, file.errorString()));
     QByteArray text = file.read(MaximumYamlSize + 1); // one byte too many is enough to refuse it
     if (text.size() > MaximumYamlSize)
-        return failure(ErrorKind::BadFile, tr("%1: larger than %2 bytes").arg(path).arg(MaximumYamlSize));
+        return failure(ErrorKind::BadFile, ProfileText::tr("%1: larger than %2 bytes").arg(path).arg(MaximumYamlSize));
     return text;
 }
 
@@ -41,7 +32,7 @@ Result<void> writeProfile(const QString &path, const QByteArray &text)
 {
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly) || file.write(text) != text.size() || !file.commit())
-        return failure(ErrorKind::BadFile, tr("%1 can't be written: %2").arg(path, file.errorString()));
+        return failure(ErrorKind::BadFile, ProfileText::tr("%1 can't be written: %2").arg(path, file.errorString()));
     return {};
 }
 

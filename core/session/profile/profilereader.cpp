@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the text of a profile to its values, every fault with its line and column.
 #include "core/session/profile/profilevalues.h"
+#include "core/session/texts.h"
 #include "core/table/nearestnames.h"
 #include "core/yaml/yamlfaults.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <map>
@@ -12,12 +11,7 @@
 namespace dynascope {
 namespace {
 
-constexpr qsizetype LongestText = 200; ///< of a register's value
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
+constexpr qsizetype LongestValue = 200; ///< of a register's value
 
 /// A register as it stands in the file, before it is known which table it is for.
 struct Entry {
@@ -35,10 +29,11 @@ public:
 
     Result<Profile> read(const YamlNode &root)
     {
-        if (map(root, tr("a profile"), {u"profile", u"name", u"defaults", u"joints"})) {
+        if (map(root, ProfileText::tr("a profile"), {u"profile", u"name", u"defaults", u"joints"})) {
             const YamlNode *version = root.find(u"profile");
             if (!version)
-                say(root, tr("\"profile: %1\" is missing, which says that this is one").arg(Profile::Version));
+                say(root,
+                    ProfileText::tr("\"profile: %1\" is missing, which says that this is one").arg(Profile::Version));
             else
                 whole(*version, "profile", Profile::Version, Profile::Version);
             if (const YamlNode *name = root.find(u"name"))
@@ -57,7 +52,7 @@ private:
     bool map(const YamlNode &node, const QString &what, std::initializer_list<QStringView> keys)
     {
         if (!node.isMap()) {
-            say(node, tr("%1 is made of \"key: value\" lines").arg(what));
+            say(node, ProfileText::tr("%1 is made of \"key: value\" lines").arg(what));
             return false;
         }
         for (std::size_t i = 0; i < node.children.size(); i += 2) {
@@ -67,7 +62,8 @@ private:
             QStringList known;
             for (const QStringView each : keys)
                 known << each.toString();
-            say(key, tr("\"%1\" is no key of %2, which has %3").arg(cut(key.text), what, known.join(u", ")));
+            say(key,
+                ProfileText::tr("\"%1\" is no key of %2, which has %3").arg(cut(key.text), what, known.join(u", ")));
         }
         return true;
     }
@@ -78,12 +74,14 @@ private:
         const int number = node.text.toInt(&ok);
         if (node.kind == YamlNode::Kind::Scalar && ok && number >= low && number <= high)
             return number;
-        say(node, low == high ? tr("%1 is %2 here, not \"%3\"").arg(QLatin1String(key)).arg(low).arg(cut(node.text))
-                              : tr("%1 is a whole number from %2 to %3, not \"%4\"")
-                                    .arg(QLatin1String(key))
-                                    .arg(low)
-                                    .arg(high)
-                                    .arg(cut(node.text)));
+        say(node,
+            low == high
+                ? ProfileText::tr("%1 is %2 here, not \"%3\"").arg(QLatin1String(key)).arg(low).arg(cut(node.text))
+                : ProfileText::tr("%1 is a whole number from %2 to %3, not \"%4\"")
+                      .arg(QLatin1String(key))
+                      .arg(low)
+                      .arg(high)
+                      .arg(cut(node.text)));
         return -1;
     }
 
@@ -94,8 +92,9 @@ private:
         if (node.kind == YamlNode::Kind::Scalar && !node.text.trimmed().isEmpty() && isPrintable
             && node.text.size() <= Profile::LongestName)
             return node.text;
-        say(node,
-            tr("%1 is a text of one line, up to %2 characters").arg(QLatin1String(key)).arg(Profile::LongestName));
+        say(node, ProfileText::tr("%1 is a text of one line, up to %2 characters")
+                      .arg(QLatin1String(key))
+                      .arg(Profile::LongestName));
         return {};
     }
 
@@ -105,7 +104,7 @@ private:
         if (node.kind == YamlNode::Kind::Null)
             return found; // "registers:" and nothing behind it
         if (!node.isMap()) {
-            say(node, tr("registers are \"Name: value\" lines"));
+            say(node, ProfileText::tr("registers are \"Name: value\" lines"));
             return found;
         }
         std::map<QString, int> lines;
@@ -114,13 +113,14 @@ private:
             const YamlNode &value = node.children[i + 1];
             const auto [at, isNew] = lines.emplace(normalizedName(name.text), name.line);
             if (!isNew)
-                say(name, tr("%1 stands in line %2 already").arg(cut(name.text)).arg(at->second));
+                say(name, ProfileText::tr("%1 stands in line %2 already").arg(cut(name.text)).arg(at->second));
             else if (value.kind != YamlNode::Kind::Scalar)
-                say(value, tr("%1 needs one value: a number, one with its unit, or a name").arg(cut(name.text)));
+                say(value,
+                    ProfileText::tr("%1 needs one value: a number, one with its unit, or a name").arg(cut(name.text)));
             else if (value.style == YamlNode::Style::Spread)
-                say(value, tr("the value of %1 stands in one line").arg(cut(name.text)));
-            else if (value.text.size() > LongestText)
-                say(value, tr("the value of %1 is too long").arg(cut(name.text)));
+                say(value, ProfileText::tr("the value of %1 stands in one line").arg(cut(name.text)));
+            else if (value.text.size() > LongestValue)
+                say(value, ProfileText::tr("the value of %1 is too long").arg(cut(name.text)));
             else
                 found.push_back({&name, &value});
         }
@@ -132,7 +132,7 @@ private:
         if (!defaults || defaults->kind == YamlNode::Kind::Null)
             return;
         if (!defaults->isMap())
-            return say(*defaults, tr("defaults have a model's name, or \"all\", and registers below it"));
+            return say(*defaults, ProfileText::tr("defaults have a model's name, or \"all\", and registers below it"));
         for (std::size_t i = 0; i + 1 < defaults->children.size(); i += 2) {
             const YamlNode &key = defaults->children[i];
             if (key.text == u"all") {
@@ -143,7 +143,7 @@ private:
             if (!model)
                 continue;
             if (m_forModel.contains(model->modelNumber))
-                say(key, tr("the defaults of %1 stand twice").arg(model->model));
+                say(key, ProfileText::tr("the defaults of %1 stand twice").arg(model->model));
             m_forModel[model->modelNumber] = entries(defaults->children[i + 1]);
             m_defaultsAt[model->modelNumber] = &key;
         }
@@ -161,7 +161,7 @@ private:
         const Catalog::ModelInfo *model =
             node.kind == YamlNode::Kind::Scalar ? m_catalog.model(QStringView(node.text)) : nullptr;
         if (!model)
-            say(node, tr("no model is called %1; dxl models lists them").arg(cut(node.text)));
+            say(node, ProfileText::tr("no model is called %1; dxl models lists them").arg(cut(node.text)));
         return model;
     }
 
@@ -169,18 +169,18 @@ private:
     {
         const YamlNode *joints = root.find(u"joints");
         if (!joints)
-            return say(root, tr("\"joints\" are missing"));
+            return say(root, ProfileText::tr("\"joints\" are missing"));
         if (!joints->isList())
-            return say(*joints, tr("joints are a list: a line \"- name: ...\" begins each"));
+            return say(*joints, ProfileText::tr("joints are a list: a line \"- name: ...\" begins each"));
         if (joints->children.size() > Profile::MostJoints)
-            return say(*joints, tr("more than %1 joints").arg(Profile::MostJoints));
+            return say(*joints, ProfileText::tr("more than %1 joints").arg(Profile::MostJoints));
         for (const YamlNode &joint : joints->children)
             readJoint(joint);
     }
 
     void readJoint(const YamlNode &node)
     {
-        if (!map(node, tr("a joint"), {u"name", u"model", u"id", u"baud", u"firmware", u"registers"}))
+        if (!map(node, ProfileText::tr("a joint"), {u"name", u"model", u"id", u"baud", u"firmware", u"registers"}))
             return;
         ProfileJoint joint;
         joint.line = node.line;
@@ -190,7 +190,7 @@ private:
         constexpr std::array Keys{"name", "model", "id", "baud"};
         for (std::size_t i = 0; i < needed.size(); ++i) {
             if (!needed[i])
-                say(node, tr("\"%1\" of this joint is missing").arg(QLatin1String(Keys[i])));
+                say(node, ProfileText::tr("\"%1\" of this joint is missing").arg(QLatin1String(Keys[i])));
         }
         if (needed[0]) {
             joint.name = word(*needed[0], "name");
@@ -216,7 +216,7 @@ private:
     {
         const auto [at, isNew] = m_names.emplace(name, node.line);
         if (!isNew && !name.isEmpty())
-            say(node, tr("the joint of line %1 is called %2, too").arg(at->second).arg(name));
+            say(node, ProfileText::tr("the joint of line %1 is called %2, too").arg(at->second).arg(name));
     }
 
     void readBaud(const YamlNode &node, ProfileJoint &joint)
@@ -228,7 +228,7 @@ private:
         QStringList rates;
         for (const BaudCode &code : table->description().baudCodes)
             rates << QString::number(code.rate);
-        say(node, tr("%1 has no baud rate of %2; its rates are %3")
+        say(node, ProfileText::tr("%1 has no baud rate of %2; its rates are %3")
                       .arg(joint.model)
                       .arg(joint.baudRate)
                       .arg(rates.join(u", ")));
@@ -291,10 +291,10 @@ private:
             return;
         }
         const QStringList near = namesNear(*tables.front(), entry.name->text);
-        QString what = tr("%1 has no register \"%2\"").arg(joint.model, cut(entry.name->text));
+        QString what = ProfileText::tr("%1 has no register \"%2\"").arg(joint.model, cut(entry.name->text));
         if (joint.firmware >= 0)
-            what += tr(" at firmware %1 or newer").arg(joint.firmware);
-        sayOnce(*entry.name, near.isEmpty() ? what : what + tr("; nearest: %1").arg(near.join(u", ")));
+            what += ProfileText::tr(" at firmware %1 or newer").arg(joint.firmware);
+        sayOnce(*entry.name, near.isEmpty() ? what : what + ProfileText::tr("; nearest: %1").arg(near.join(u", ")));
     }
 
     /// What defaults say wrong is wrong for many joints.
@@ -322,7 +322,8 @@ private:
                 continue;
             if (raw && *raw == 0 && field == (*table)->find(Known::StatusReturnLevel))
                 raw = failure(ErrorKind::InvalidArgument,
-                              tr("at Status Return Level 0 nothing can be read, so nothing could be looked at again"));
+                              ProfileText::tr(
+                                  "at Status Return Level 0 nothing can be read, so nothing could be looked at again"));
             if (raw || mayBeRight(*field, joint))
                 continue;
             if (m_saidAt.emplace(std::pair(each.line, each.column), true).second)
@@ -348,7 +349,7 @@ private:
             const auto [at, isNew] = places.emplace(std::pair(joint.baudRate, joint.id), &joint);
             if (!isNew)
                 say(joint.line, joint.column,
-                    tr("ID %1 at %2 bps is that of %3 (line %4), too")
+                    ProfileText::tr("ID %1 at %2 bps is that of %3 (line %4), too")
                         .arg(joint.id)
                         .arg(joint.baudRate)
                         .arg(at->second->name)
@@ -359,10 +360,10 @@ private:
     void checkDefaults()
     {
         for (const auto &[model, key] : m_defaultsAt)
-            say(*key, tr("no joint is a %1").arg(cut(key->text)));
+            say(*key, ProfileText::tr("no joint is a %1").arg(cut(key->text)));
         for (const Entry &entry : m_forAll) {
             if (!m_used.contains(entry.name))
-                say(*entry.name, tr("no joint's model has a register \"%1\"").arg(cut(entry.name->text)));
+                say(*entry.name, ProfileText::tr("no joint's model has a register \"%1\"").arg(cut(entry.name->text)));
         }
     }
 

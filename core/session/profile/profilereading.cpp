@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/profile/profilereading.h"
 
+#include "core/bus/operations.h"
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
 #include "core/session/procedures/atbaud.h"
@@ -17,16 +18,6 @@ constexpr LineTime Stall = std::chrono::milliseconds(40); // of a busy host or a
 constexpr std::uint16_t ModelNumberAt = 0;                // of every device of Protocol 2.0: "Model Number"
 
 /// Errors that are about the line, not about one device.
-bool endsAll(const Error &error)
-{
-    switch (error.kind) {
-    case ErrorKind::Cancelled:
-    case ErrorKind::Stopped:
-    case ErrorKind::PortLost: return true;
-    default: return false;
-    }
-}
-
 QString nameOf(const ProfileJoint &joint)
 {
     return QStringLiteral("%1 (%2, ID %3)").arg(joint.name, joint.model).arg(joint.id);

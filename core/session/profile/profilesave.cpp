@@ -2,20 +2,14 @@
 #include "core/session/profile/profilesave.h"
 
 #include "core/session/profile/profilevalues.h"
+#include "core/session/texts.h"
 #include "core/yaml/yamledit.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 #include <set>
 
 namespace dynascope {
 namespace {
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Profile", text);
-}
 
 /// A register to be written into the file.
 struct NewValue {
@@ -57,7 +51,7 @@ public:
         }
         for (const ProfileJoint &joint : m_profile.joints) {
             if (!seen.contains(&joint))
-                m_saved.notes << tr("%1 was not read and stays as it is in the file").arg(joint.name);
+                m_saved.notes << ProfileText::tr("%1 was not read and stays as it is in the file").arg(joint.name);
         }
         addJoints(strangers);
         m_saved.text = m_edits.isEmpty() ? m_text : m_edits.result();
@@ -75,7 +69,8 @@ private:
     {
         const ControlTablePtr table = m_catalog.find(device.found.modelNumber, device.found.firmware);
         if (!table || device.found.modelNumber != joint.modelNumber) {
-            m_saved.notes << tr("%1 is a %2 in the file, but a %3 answers there; it stays as it is in the file")
+            m_saved.notes << ProfileText::tr(
+                                 "%1 is a %2 in the file, but a %3 answers there; it stays as it is in the file")
                                  .arg(joint.name, joint.model, modelName(m_catalog, device.found.modelNumber));
             return;
         }
@@ -105,8 +100,9 @@ private:
         QString text = textOfValue(table, field, raw, held, like);
         if (means(table, field, text, held) == raw)
             return text;
-        m_saved.notes
-            << tr("%1: %2 holds %3, which is out of its range; it was left out").arg(joint, field.name).arg(raw);
+        m_saved.notes << ProfileText::tr("%1: %2 holds %3, which is out of its range; it was left out")
+                             .arg(joint, field.name)
+                             .arg(raw);
         return std::nullopt;
     }
 
@@ -237,7 +233,7 @@ private:
     QString freeName(const SavedDevice &device)
     {
         const QString wanted = device.name.left(Profile::LongestName - 10).simplified();
-        const QString base = wanted.isEmpty() ? tr("joint %1").arg(device.found.id) : wanted;
+        const QString base = wanted.isEmpty() ? ProfileText::tr("joint %1").arg(device.found.id) : wanted;
         QString name = base;
         for (int i = 2; m_names.contains(name); ++i)
             name = QStringLiteral("%1 %2").arg(base).arg(i);
@@ -253,7 +249,8 @@ private:
         for (const SavedDevice *device : devices) {
             const ControlTablePtr table = m_catalog.find(device->found.modelNumber, device->found.firmware);
             if (!table) {
-                m_saved.notes << tr("ID %1 is of an unknown model and is not in the file").arg(device->found.id);
+                m_saved.notes
+                    << ProfileText::tr("ID %1 is of an unknown model and is not in the file").arg(device->found.id);
                 continue;
             }
             ++m_saved.newJoints;
@@ -355,10 +352,11 @@ Result<SavedProfile> saveProfile(const QByteArray &text, const QString &file, co
         return tl::unexpected(root.error());
     SavedProfile saved = Saver(base, profile, *root, catalog, options).save(devices);
     if (isNew && saved.newJoints == 0)
-        return failure(ErrorKind::NotFound, tr("there is no device that a profile could be made of"));
+        return failure(ErrorKind::NotFound, ProfileText::tr("there is no device that a profile could be made of"));
     if (const auto again = profileFromYaml(saved.text, file, catalog); !again) {
-        return failure(ErrorKind::BadFile,
-                       tr("What would be written can't be read again, so nothing was: %1").arg(again.error().text));
+        return failure(
+            ErrorKind::BadFile,
+            ProfileText::tr("What would be written can't be read again, so nothing was: %1").arg(again.error().text));
     }
     return saved;
 }

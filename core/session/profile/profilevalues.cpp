@@ -62,8 +62,7 @@ QString typed(const EffectiveField &field, int resolution, std::int64_t raw, con
         if (number.endsWith(u'.'))
             number.chop(1);
     }
-    const bool isAngle = field.unit == Unit::Pulse || field.unit == Unit::Degree;
-    const bool isOwnUnit = !units.torque && !(isAngle && units.angle != AngleUnit::Degrees);
+    const bool isOwnUnit = !units.torque && !(isAngle(field.unit) && units.angle != AngleUnit::Degrees);
     return number + u' ' + (isOwnUnit ? unitId(field.unit) : shown.unit);
 }
 

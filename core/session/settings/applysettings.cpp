@@ -3,8 +3,7 @@
 
 #include "core/session/journal/journalwrites.h"
 #include "core/session/procedures/atbaud.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
@@ -12,11 +11,6 @@ namespace dynascope {
 namespace {
 
 constexpr int MostPasses = 8; ///< each brings at least one register further, and hardly ever are there three
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Settings", text);
-}
 
 /// Does it say something of this register alone? Then the others may still be written.
 bool isOfTheRegister(const Error &error)
@@ -96,11 +90,11 @@ private:
         for (std::size_t i = 0; i < m_plan.steps.size(); ++i) {
             const SettingsStep &step = m_plan.steps[i];
             if (m_outcome.results[i].before.empty())
-                return failure(ErrorKind::Refused, tr("%1 lets %2 not be read; nothing was written")
+                return failure(ErrorKind::Refused, SettingsText::tr("%1 lets %2 not be read; nothing was written")
                                                        .arg(m_plan.place.name, step.name));
             m_wanted.push_back(step.isKept ? m_outcome.results[i].before : step.to);
             if (step.isFixed && differs(i))
-                setFailed(i, tr("%1 is not changed among other settings").arg(step.name));
+                setFailed(i, SettingsText::tr("%1 is not changed among other settings").arg(step.name));
         }
         return {};
     }
@@ -205,7 +199,7 @@ private:
         SettingResult &result = m_outcome.results[i];
         if (step.isLocked && m_torque) {
             if (!m_plan.options.mayTurnTorqueOff) { // it wasn't to be foreseen
-                setFailed(i, tr("%1 is locked by torque").arg(step.name));
+                setFailed(i, SettingsText::tr("%1 is locked by torque").arg(step.name));
                 return {};
             }
             if (const auto off = turnTorqueOff(); !off)
@@ -245,13 +239,13 @@ private:
         const RestingGoal *resting = restingGoal();
         if (comesOn() && resting && resting->goal == step.where) {
             result.state = SettingState::Left;
-            result.why = tr("%1 is set so that nothing moves when torque comes on").arg(step.name);
+            result.why = SettingsText::tr("%1 is set so that nothing moves when torque comes on").arg(step.name);
             return true;
         }
         if (!goalWakes())
             return false;
         result.state = SettingState::Left;
-        result.why = tr("%1 is left as it is, since writing it would turn torque on").arg(step.name);
+        result.why = SettingsText::tr("%1 is left as it is, since writing it would turn torque on").arg(step.name);
         return true;
     }
 
@@ -287,7 +281,7 @@ private:
             SettingResult &result = m_outcome.results[i];
             result.after = m_image.bytes(m_plan.steps[i].where);
             if (!isOver(i) && differs(i))
-                setFailed(i, tr("%1 did not stay at what was written").arg(m_plan.steps[i].name));
+                setFailed(i, SettingsText::tr("%1 did not stay at what was written").arg(m_plan.steps[i].name));
             else if (!isOver(i) && result.state == SettingState::Differs) // another write has brought it there
                 result.state = SettingState::Written;
         }
@@ -306,17 +300,17 @@ private:
 
     Result<void> staysOff(const QString &why)
     {
-        m_outcome.torqueNote = tr("Torque stays off: %1").arg(why);
+        m_outcome.torqueNote = SettingsText::tr("Torque stays off: %1").arg(why);
         return {};
     }
 
     Result<void> putTorqueBack()
     {
         if (m_outcome.count(SettingState::Failed) > 0)
-            return staysOff(tr("not everything could be written"));
+            return staysOff(SettingsText::tr("not everything could be written"));
         const RestingGoal *resting = restingGoal();
         if (!resting)
-            return staysOff(tr("nobody knows which goal would let it rest in this mode"));
+            return staysOff(SettingsText::tr("nobody knows which goal would let it rest in this mode"));
         Bytes goal(resting->goal.size);
         if (resting->present) {
             const auto present = dynascope::read(

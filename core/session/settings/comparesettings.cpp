@@ -2,23 +2,17 @@
 #include "core/session/settings/applysettings.h"
 
 #include "core/session/settings/settingsorder.h"
-
-#include <QCoreApplication>
+#include "core/session/texts.h"
 
 #include <algorithm>
 
 namespace dynascope {
 namespace {
 
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Settings", text);
-}
-
 void askFor(SettingsOutcome &outcome, Consent consent, const QString &why)
 {
     outcome.missing = consent;
-    outcome.why = tr("%1; nothing was written").arg(why);
+    outcome.why = SettingsText::tr("%1; nothing was written").arg(why);
 }
 
 } // namespace
@@ -39,18 +33,20 @@ Result<void> checkIdentity(const SettingsPlan &plan, const RegisterImage &image)
     const auto version = plan.firmwareVersion ? image.number(*plan.firmwareVersion) : std::nullopt;
     const std::int64_t firmware = version.value_or(plan.firmware); // not read: nothing speaks against it
     if (model && *model != plan.place.modelNumber) {
-        return failure(ErrorKind::NotFound, tr("Another model answers as ID %1 at %2 bps, not %3; nothing was written")
-                                                .arg(plan.place.id)
-                                                .arg(plan.place.baudRate)
-                                                .arg(plan.place.name));
+        return failure(ErrorKind::NotFound,
+                       SettingsText::tr("Another model answers as ID %1 at %2 bps, not %3; nothing was written")
+                           .arg(plan.place.id)
+                           .arg(plan.place.baudRate)
+                           .arg(plan.place.name));
     }
     if (plan.firmware >= 0 && firmware != plan.firmware) {
-        return failure(ErrorKind::NotFound,
-                       tr("%1 has firmware %2, not %3: another device, or its registers may mean something else; "
-                          "nothing was written")
-                           .arg(plan.place.name)
-                           .arg(firmware)
-                           .arg(plan.firmware));
+        return failure(
+            ErrorKind::NotFound,
+            SettingsText::tr("%1 has firmware %2, not %3: another device, or its registers may mean something else; "
+                             "nothing was written")
+                .arg(plan.place.name)
+                .arg(firmware)
+                .arg(plan.firmware));
     }
     return {};
 }
@@ -88,15 +84,17 @@ Result<void> checkDifferences(const SettingsPlan &plan, const RegisterImage &ima
         const KnownRange range = rangeOf(step, [&](const RegisterPlace &at) { return end.number(at); });
         const QString problem = rangeProblem(step, RegisterImage::numberOf(step.where, step.to), range);
         if (!problem.isEmpty())
-            return failure(ErrorKind::InvalidArgument, tr("%1: %2; nothing was written").arg(plan.place.name, problem));
+            return failure(ErrorKind::InvalidArgument,
+                           SettingsText::tr("%1: %2; nothing was written").arg(plan.place.name, problem));
         hasGoals = hasGoals || step.isGoal;
     }
     if (outcome.needsTorqueOff && !plan.options.mayTurnTorqueOff)
-        askFor(outcome, Consent::TorqueOff, tr("%1 is under torque, which locks its EEPROM").arg(plan.place.name));
+        askFor(outcome, Consent::TorqueOff,
+               SettingsText::tr("%1 is under torque, which locks its EEPROM").arg(plan.place.name));
     else if (outcome.moves && !outcome.needsTorqueOff && !plan.options.mayMove)
-        askFor(outcome, Consent::Motion, tr("%1 is under torque and would move").arg(plan.place.name));
+        askFor(outcome, Consent::Motion, SettingsText::tr("%1 is under torque and would move").arg(plan.place.name));
     else if (hasGoals && !plan.torque && !plan.options.mayMove)
-        askFor(outcome, Consent::Motion, tr("Nobody knows whether %1 would move").arg(plan.place.name));
+        askFor(outcome, Consent::Motion, SettingsText::tr("Nobody knows whether %1 would move").arg(plan.place.name));
     return {};
 }
 

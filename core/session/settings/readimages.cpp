@@ -11,7 +11,7 @@ namespace {
 
 using Images = std::vector<Result<RegisterImage>>;
 
-bool endsAll(const Error &error)
+bool endsReading(const Error &error)
 {
     return !mayHaveArrived(error) && error.kind != ErrorKind::Refused && error.kind != ErrorKind::NotSent;
 }
@@ -102,7 +102,7 @@ private:
             }
             error = alone.error();
         }
-        if (endsAll(error))
+        if (endsReading(error))
             return tl::unexpected(error);
         if (error.kind != ErrorKind::Refused)
             image = tl::unexpected(error);

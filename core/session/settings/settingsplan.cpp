@@ -3,9 +3,8 @@
 
 #include "core/session/journal/journalwrites.h"
 #include "core/session/settings/settingsorder.h"
+#include "core/session/texts.h"
 #include "core/table/indirect.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 
@@ -14,11 +13,6 @@ namespace {
 
 constexpr int LargestSecondaryId = 252; ///< beyond it is switched off
 constexpr std::int64_t AnswersPingAlone = 0, ThisProtocol = 2;
-
-QString tr(const char *text)
-{
-    return QCoreApplication::translate("Settings", text);
-}
 
 bool isAny(const ControlTable &table, const Field &field, std::initializer_list<Known> of)
 {
@@ -46,22 +40,24 @@ QString ownMatter(const ControlTable &table, const DevicePlace &place, const Fie
                   const std::set<int> &otherIds)
 {
     if (&field == table.find(Known::Id) && raw != place.id)
-        return tr("ID is not changed among other settings: give the device its new ID first");
+        return SettingsText::tr("ID is not changed among other settings: give the device its new ID first");
     if (&field == table.find(Known::BaudRate) && table.baudRate(static_cast<int>(raw)) != place.baudRate)
-        return tr("Baud Rate is not changed among other settings: move the device to its new baud rate first");
+        return SettingsText::tr(
+            "Baud Rate is not changed among other settings: move the device to its new baud rate first");
     if (isNamed(field, u"Protocol Type") && raw != ThisProtocol)
-        return tr("Protocol Type stays at Protocol 2.0: the device would not be found any more");
+        return SettingsText::tr("Protocol Type stays at Protocol 2.0: the device would not be found any more");
     if (&field == table.find(Known::StatusReturnLevel) && raw == AnswersPingAlone)
-        return tr("Status Return Level 0 is not set among other settings: nothing could be read back any more");
+        return SettingsText::tr(
+            "Status Return Level 0 is not set among other settings: nothing could be read back any more");
     if (&field == table.find(Known::TorqueEnable))
-        return tr("Torque Enable is no setting: torque is switched by hand");
+        return SettingsText::tr("Torque Enable is no setting: torque is switched by hand");
     if (isNamed(field, u"Hybrid Save"))
-        return tr("Hybrid Save is an order, not a setting");
+        return SettingsText::tr("Hybrid Save is an order, not a setting");
     if (isIndirectData(field))
-        return tr("%1 leads to another register: set that one").arg(field.name);
+        return SettingsText::tr("%1 leads to another register: set that one").arg(field.name);
     const bool isTaken = raw == place.id || otherIds.contains(static_cast<int>(raw));
     if (&field == table.find(Known::SecondaryId) && raw <= LargestSecondaryId && isTaken)
-        return tr("Secondary ID %1 is the ID of a device of this line").arg(raw);
+        return SettingsText::tr("Secondary ID %1 is the ID of a device of this line").arg(raw);
     return {};
 }
 
@@ -138,7 +134,7 @@ void addReads(SettingsPlan &plan, const ControlTable &table, const std::vector<c
 
 Error about(const DevicePlace &place, const QString &problem)
 {
-    return {ErrorKind::InvalidArgument, tr("%1: %2; nothing was written").arg(place.name, problem)};
+    return {ErrorKind::InvalidArgument, SettingsText::tr("%1: %2; nothing was written").arg(place.name, problem)};
 }
 
 /// Under the wanted values; what these don't tell is looked at once it has been read.
@@ -227,9 +223,9 @@ QString rangeProblem(const SettingsStep &step, std::int64_t raw, const KnownRang
     if ((!range.minimum || raw >= *range.minimum) && (!range.maximum || raw <= *range.maximum))
         return {};
     const auto text = [](const std::optional<std::int64_t> &bound) {
-        return bound ? QString::number(*bound) : tr("anything");
+        return bound ? QString::number(*bound) : SettingsText::tr("anything");
     };
-    return tr("%1 can be %2 to %3, not %4")
+    return SettingsText::tr("%1 can be %2 to %3, not %4")
         .arg(step.name, text(range.minimum), text(range.maximum), QString::number(raw));
 }
 
@@ -238,15 +234,15 @@ QString settingProblem(const ControlTable &table, const DevicePlace &place, cons
 {
     const auto fields = table.fields();
     if (wanted.field < 0 || wanted.field >= static_cast<int>(fields.size()))
-        return tr("There is no register number %1").arg(wanted.field);
+        return SettingsText::tr("There is no register number %1").arg(wanted.field);
     const Field &field = fields[static_cast<std::size_t>(wanted.field)];
     if (!field.isWritable())
-        return field.mayBeTried() ? tr("Nobody knows whether %1 may be written").arg(field.name)
-                                  : tr("%1 can only be read").arg(field.name);
+        return field.mayBeTried() ? SettingsText::tr("Nobody knows whether %1 may be written").arg(field.name)
+                                  : SettingsText::tr("%1 can only be read").arg(field.name);
     if (wanted.raw < smallestRaw(field) || wanted.raw > largestRaw(field))
-        return tr("%1 does not fit into %2").arg(wanted.raw).arg(field.name);
+        return SettingsText::tr("%1 does not fit into %2").arg(wanted.raw).arg(field.name);
     if (!field.values.empty() && std::ranges::find(field.values, wanted.raw, &EnumValue::value) == field.values.end())
-        return tr("%1 has no value %2").arg(field.name).arg(wanted.raw);
+        return SettingsText::tr("%1 has no value %2").arg(field.name).arg(wanted.raw);
     return ownMatter(table, place, field, wanted.raw, options.otherIds);
 }
 
@@ -254,8 +250,9 @@ Result<SettingsPlan> planSettings(const ControlTable &table, const DevicePlace &
                                   const std::vector<WantedSetting> &wanted, const SettingsOptions &options)
 {
     if (table.description().isRaw)
-        return failure(ErrorKind::NotSupported,
-                       tr("%1: the registers of this model are not known; nothing was written").arg(place.name));
+        return failure(
+            ErrorKind::NotSupported,
+            SettingsText::tr("%1: the registers of this model are not known; nothing was written").arg(place.name));
     SettingsPlan plan;
     plan.place = place;
     plan.firmware = firmware;
@@ -266,7 +263,7 @@ Result<SettingsPlan> planSettings(const ControlTable &table, const DevicePlace &
             return tl::unexpected(about(place, problem));
         const Field *field = &table.fields()[static_cast<std::size_t>(one.field)];
         if (std::ranges::find(fields, field) != fields.end())
-            return tl::unexpected(about(place, tr("%1 is wanted twice").arg(field->name)));
+            return tl::unexpected(about(place, SettingsText::tr("%1 is wanted twice").arg(field->name)));
         fields.push_back(field);
     }
     std::vector<const Field *> all = fields;
