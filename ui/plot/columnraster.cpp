@@ -16,6 +16,13 @@ quint32 scaled(quint32 color, quint32 factor)
     return even | odd;
 }
 
+/// `coverage` of a premultiplied color laid over a pixel.
+quint32 blended(quint32 color, quint32 pixel, float coverage)
+{
+    const quint32 source = scaled(color, static_cast<quint32>(static_cast<qint32>(coverage * 256.0F)));
+    return source + scaled(pixel, 256 - (source >> 24));
+}
+
 } // namespace
 
 void ColumnRaster::resize(int width, int height)
@@ -47,12 +54,6 @@ void ColumnRaster::setColor(const QColor &color)
     m_opaque = color.alpha() == 255;
 }
 
-void ColumnRaster::blend(quint32 &pixel, float coverage) const
-{
-    const quint32 source = scaled(m_color, static_cast<quint32>(coverage * 256.0F));
-    pixel = source + scaled(pixel, 256 - (source >> 24));
-}
-
 void ColumnRaster::span(int x, float top, float bottom)
 {
     top = std::max(top, 0.0F);
@@ -62,17 +63,20 @@ void ColumnRaster::span(int x, float top, float bottom)
     quint32 *column = m_pixels.data() + static_cast<std::size_t>(x) * static_cast<std::size_t>(m_height);
     const int first = static_cast<int>(top);
     const int last = static_cast<int>(bottom); // the pixel after the last whole one
+    const quint32 color = m_color;
     if (first == last) {
-        blend(column[first], bottom - top);
+        column[first] = blended(color, column[first], bottom - top);
         return;
     }
-    blend(column[first], 1.0F - (top - static_cast<float>(first)));
-    if (m_opaque)
-        std::fill(column + first + 1, column + last, m_color);
-    else
-        std::for_each(column + first + 1, column + last, [this](quint32 &pixel) { blend(pixel, 1); });
+    column[first] = blended(color, column[first], 1.0F - (top - static_cast<float>(first)));
+    if (m_opaque) {
+        std::fill(column + first + 1, column + last, color);
+    } else {
+        for (int y = first + 1; y < last; ++y)
+            column[y] = blended(color, column[y], 1);
+    }
     if (last < m_height)
-        blend(column[last], bottom - static_cast<float>(last));
+        column[last] = blended(color, column[last], bottom - static_cast<float>(last));
 }
 
 void ColumnRaster::slope(int x, float from, float to, float thickness, Limits limits)
@@ -97,12 +101,15 @@ void ColumnRaster::slope(int x, float from, float to, float thickness, Limits li
     const int first = static_cast<int>(top);
     const int last = static_cast<int>(std::ceil(bottom));
     quint32 *column = m_pixels.data() + static_cast<std::size_t>(x) * static_cast<std::size_t>(m_height);
-    for (int y = first; y < last; ++y) {
-        const float middle = static_cast<float>(y) + 0.5F;
-        const float inside = std::min(static_cast<float>(y) + 1, bottom) - std::max(static_cast<float>(y), top);
-        const float coverage = std::min({inside, most, (middle - begin) / ramp, (end - middle) / ramp});
-        if (coverage > 0)
-            blend(column[y], coverage);
+    const quint32 color = m_color;
+    const float perPixel = 1 / ramp;
+    for (int y = first; y < last; ++y) { // without a branch, so that several pixels go at once
+        const auto above = static_cast<float>(y);
+        const float inside = std::min(above + 1, bottom) - std::max(above, top);
+        const float rising = (above + 0.5F - begin) * perPixel;
+        const float falling = (end - above - 0.5F) * perPixel;
+        const float coverage = std::max(0.0F, std::min(std::min(inside, most), std::min(rising, falling)));
+        column[y] = blended(color, column[y], coverage);
     }
 }
 

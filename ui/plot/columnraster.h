@@ -33,8 +33,6 @@ public:
     const QImage &image();
 
 private:
-    void blend(quint32 &pixel, float coverage) const;
-
     int m_width = 0;
     int m_height = 0;
     std::vector<quint32> m_pixels; ///< column by column

@@ -22,6 +22,13 @@ void put(std::byte *ends, std::size_t index, std::uint32_t value)
 }
 
 template <class T>
+Extremes blockAt(const std::byte *ends, std::size_t size, std::uint32_t base, std::size_t index)
+{
+    return {static_cast<std::int32_t>(base + endAt<T>(ends, index)),
+            static_cast<std::int32_t>(base + endAt<T>(ends, size + index))};
+}
+
+template <class T>
 Extremes blocksIn(const std::byte *ends, std::size_t size, std::uint32_t base, std::size_t begin, std::size_t end)
 {
     T lowest = std::numeric_limits<T>::max();
@@ -53,9 +60,12 @@ PackedExtremes::PackedExtremes(std::span<const Extremes> blocks)
 
 Extremes PackedExtremes::operator[](std::size_t index) const
 {
-    Extremes result;
-    include(result, index, index + 1);
-    return result;
+    switch (m_width) {
+    case 0: return {static_cast<std::int32_t>(m_base), static_cast<std::int32_t>(m_base)};
+    case 1: return blockAt<std::uint8_t>(m_ends.get(), m_size, m_base, index);
+    case 2: return blockAt<std::uint16_t>(m_ends.get(), m_size, m_base, index);
+    default: return blockAt<std::uint32_t>(m_ends.get(), m_size, m_base, index);
+    }
 }
 
 void PackedExtremes::include(Extremes &result, std::size_t begin, std::size_t end) const

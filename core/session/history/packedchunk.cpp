@@ -84,8 +84,17 @@ void PackedChunk::includeSamples(Extremes &result, std::size_t begin, std::size_
         const std::size_t stop = std::min(end, (fine + 1) * FineSize);
         const Extremes all = m_fine[fine];
         if (!result.covers(all)) {
-            for (const Block in = block(fine, all); begin < stop; ++begin)
-                result.include(value(in, begin % FineSize));
+            const Block in = block(fine, all);
+            const std::uint64_t mask = bits::mask(in.width);
+            std::uint32_t least = std::numeric_limits<std::uint32_t>::max();
+            std::uint32_t most = 0;
+            for (std::size_t bit = in.bit + begin % FineSize * in.width; begin < stop; ++begin, bit += in.width) {
+                const auto above = static_cast<std::uint32_t>(bits::read(m_values.get() + HeadBytes, bit, mask));
+                least = std::min(least, above);
+                most = std::max(most, above);
+            }
+            const auto base = static_cast<std::uint32_t>(in.base);
+            result.include({static_cast<std::int32_t>(base + least), static_cast<std::int32_t>(base + most)});
         }
         begin = stop;
     }
