@@ -182,6 +182,34 @@ private slots:
         QCOMPARE(bench.model(1).colorIndex(1), color);
     }
 
+    void aRecordingsEventsFireAtTheirTime()
+    {
+        PlotBench bench;
+        EventLog &log = bench.area.events();
+        const auto event = [](LineTime at) {
+            return LoggedEvent{at, LoggedEvent::Kind::Alert, 1, QStringLiteral("ID 1"), QStringLiteral("Overload")};
+        };
+        log.showRecorded({event(1s), event(5s), event(5s + 100ms), event(9s)});
+        PlotTrigger trigger(log);
+        TriggerChoice choice;
+        choice.settings.kind = TriggerSettings::Kind::Event;
+        choice.settings.after = 1s;
+        trigger.choose(choice);
+        trigger.setOn(true, 2s);
+        const auto shown = [&trigger](LineTime now) {
+            std::size_t budget = 100;
+            const bool changed = trigger.advance(nullptr, nullptr, now, budget);
+            return changed ? trigger.shown() : std::nullopt;
+        };
+        QVERIFY(!shown(4s)); // what was before it was armed doesn't count, nor what is still to come
+        QVERIFY(!shown(5s + 500ms)); // what follows it is wanted, too
+        QCOMPARE(shown(6s).value_or(0s), LineTime(5s));
+        QVERIFY(!shown(8s));
+        QVERIFY(!shown(4s)); // sought back
+        QCOMPARE(shown(6s + 500ms).value_or(0s), LineTime(5s));
+        QCOMPARE(shown(20s).value_or(0s), LineTime(9s));
+    }
+
     void moreThanEightHavePatterns()
     {
         PlotBench bench;

@@ -8,7 +8,7 @@
 
 namespace dynascope {
 
-PlotTrigger::PlotTrigger(EventLog &log, QObject *parent) : QObject(parent)
+PlotTrigger::PlotTrigger(EventLog &log, QObject *parent) : QObject(parent), m_log(log)
 {
     connect(&log, &EventLog::added, this, [this](const LoggedEvent &event) { m_trigger.event(event.at); });
 }
@@ -21,10 +21,19 @@ void PlotTrigger::choose(const TriggerChoice &choice)
 
 void PlotTrigger::setOn(bool on, LineTime now)
 {
+    m_now = now;
     if (on)
         m_trigger.arm(now);
     else
         m_trigger.disarm();
+}
+
+/// A recording's are all in the log before their time has come.
+void PlotTrigger::lookAtEvents(LineTime now)
+{
+    const auto &events = m_log.events();
+    for (std::size_t i = m_log.indexAt(m_now + LineTime(1)); i < events.size() && events[i].at <= now; ++i)
+        m_trigger.event(events[i].at);
 }
 
 bool PlotTrigger::advance(const TraceModel *model, const History *history, LineTime now, std::size_t &budget)
@@ -42,6 +51,11 @@ bool PlotTrigger::advance(const TraceModel *model, const History *history, LineT
                                                                            : TriggerSettings::Kind::Rising;
     }
     m_trigger.set(settings);
+    if (now < m_now)
+        m_trigger.arm(now);
+    else
+        lookAtEvents(now);
+    m_now = now;
     return m_trigger.advance(row >= 0 ? history : nullptr, now, budget);
 }
 

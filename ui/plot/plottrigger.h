@@ -38,13 +38,18 @@ public:
     void setOn(bool on, LineTime now);
 
     /// With each frame. `model` holds the trace, if it is shown; `now` is the newest sample of all. True: shown() changed.
+    /// In a replay `now` is where that stands; gone back, it is armed anew there.
     bool advance(const TraceModel *model, const History *history, LineTime now, std::size_t &budget);
     std::optional<LineTime> shown() const { return m_trigger.shown(); }
     TriggerMark mark(const TraceModel *model) const;
 
 private:
+    void lookAtEvents(LineTime now);
+
+    const EventLog &m_log;
     TriggerChoice m_choice;
     Trigger m_trigger;
+    LineTime m_now{}; ///< as of the last look
 };
 
 } // namespace dynascope
