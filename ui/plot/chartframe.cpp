@@ -3,9 +3,9 @@
 
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/plot/timeticks.h"
 
 #include <QChart>
-#include <QCoreApplication>
 #include <QFontMetricsF>
 #include <QGraphicsLayout>
 #include <QGraphicsScene>
@@ -21,19 +21,8 @@ namespace dynascope {
 namespace {
 
 constexpr int MostTimeSteps = 10;
+constexpr qreal LabelGap = 14; ///< between the labels of two times
 constexpr int Margin = 8;
-
-/// Seconds step as clocks do: 10, 15, 30 s, then minutes.
-double niceSeconds(double span, int most)
-{
-    if (span / most > 10) {
-        for (const double step : {15.0, 30.0, 60.0, 120.0}) {
-            if (span / most <= step)
-                return step;
-        }
-    }
-    return niceStep(span, most);
-}
 
 /// Every change lays the labels out, and a small step over a wide range makes thousands: widen the step first.
 void setRange(QValueAxis *axis, double minimum, double maximum, double step)
@@ -64,6 +53,23 @@ QString labelText(double value, int decimals)
     const QString text = withMinus(QString::number(value, 'f', decimals));
     const bool isZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals); // else "−0.0"
     return isZero ? QString::number(0.0, 'f', decimals) : text;
+}
+
+/// The step of the time axis whose labels stand clear of each other.
+double labelledStep(const ChartFrame::Content &content)
+{
+    const TimeStretch stretch{content.fromSeconds, content.toSeconds};
+    const QFontMetricsF metrics(content.font);
+    const qreal room = ChartFrame::plotArea(content).width();
+    for (int most = MostTimeSteps; most > 1; --most) {
+        const double step = timeStep(stretch, most);
+        qreal widest = 0;
+        for (const double at : {stretch.from, stretch.to})
+            widest = std::max(widest, metrics.horizontalAdvance(timeLabel(at, step, stretch)));
+        if (widest + LabelGap <= step / stretch.span() * room)
+            return step;
+    }
+    return timeStep(stretch, 1);
 }
 
 /// As many as leave the traces room; one always.
@@ -134,8 +140,7 @@ void ChartFrame::applyColors(const Content &content)
 
 void ChartFrame::applyRanges(const Content &content)
 {
-    const double seconds = niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps);
-    setRange(m_time, content.fromSeconds, content.toSeconds, seconds);
+    setRange(m_time, content.fromSeconds, content.toSeconds, labelledStep(content));
     for (std::size_t i = 0; i < m_values.size(); ++i) {
         const ValueAxis &value = content.values[i];
         m_values[i]->setVisible(value.isUsed);
@@ -188,7 +193,7 @@ void ChartFrame::draw(QPainter &painter, const Content &content)
     painter.setPen(theme.border);
     painter.drawRect(area.adjusted(0, 0, -1, -1));
     painter.setPen(theme.dimmed);
-    paintTimes(painter, content, niceSeconds(content.toSeconds - content.fromSeconds, MostTimeSteps));
+    paintTimes(painter, content, labelledStep(content));
     for (int axis = 0; axis < MostAxes; ++axis)
         paintValues(painter, content, axis);
 }
@@ -198,7 +203,7 @@ void ChartFrame::paintTimes(QPainter &painter, const Content &content, double st
     const QRectF area = plotArea(content);
     const double span = content.toSeconds - content.fromSeconds;
     eachStep(content.fromSeconds, content.toSeconds, step, [&](double at) {
-        const QString text = QCoreApplication::translate("ChartFrame", "%1 s").arg(labelText(at, decimalsFor(step)));
+        const QString text = timeLabel(at, step, {content.fromSeconds, content.toSeconds});
         const qreal x = area.left() + (at - content.fromSeconds) / span * area.width();
         const qreal width = QFontMetricsF(content.font).horizontalAdvance(text);
         const qreal left = std::clamp(x - width / 2, 0.0, std::max(0.0, content.size.width() - width));

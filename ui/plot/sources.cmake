@@ -24,6 +24,7 @@ target_sources(dynascope_ui PRIVATE
     plot/plotscales.cpp plot/plotscales.h
     plot/plotstate.cpp plot/plotstate.h
     plot/plottrigger.cpp plot/plottrigger.h
+    plot/timeticks.cpp plot/timeticks.h
     plot/timewindow.cpp plot/timewindow.h
     plot/tracecolors.cpp plot/tracecolors.h
     plot/tracedata.h
