@@ -8,9 +8,6 @@
 #include <string>
 
 namespace dynascope::dxl {
-namespace {
-
-} // namespace
 
 struct CommissionArguments::Typed {
     std::string model, ids, names, profile, labels;

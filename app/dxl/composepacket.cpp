@@ -3,6 +3,7 @@
 
 #include "app/dxl/arguments.h"
 #include "core/protocol/crc16.h"
+#include "core/protocol/packet.h"
 #include "core/protocol/requests.h"
 
 #include <algorithm>
@@ -13,7 +14,6 @@ namespace dynascope::dxl {
 
 namespace {
 
-constexpr std::size_t LengthAt = 5;
 constexpr std::size_t CrcSize = 2;
 constexpr int LargestWord = 0xFFFF;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A robot's profile: saved from the bus, compared with it, applied to it. What that means is in core/session/profile.
 #include "app/dxl/commands.h"
+
 #include "app/dxl/arguments.h"
 #include "app/dxl/directjob.h"
 #include "app/dxl/profilereport.h"

@@ -9,9 +9,6 @@
 #include <string>
 
 namespace dynascope::dxl {
-namespace {
-
-} // namespace
 
 struct ProfileArguments::Typed {
     std::string action, file, joints, bauds, ids, name;

@@ -2,6 +2,7 @@
 #include "app/dxl/commands.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
+#include "core/bus/operations.h"
 
 #include <algorithm>
 

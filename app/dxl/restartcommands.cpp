@@ -8,6 +8,7 @@
 #include "app/dxl/target.h"
 #include "app/dxl/terminal.h"
 #include "core/bus/messages.h"
+#include "core/bus/operations.h"
 #include "core/session/resetplan.h"
 
 namespace dynascope::dxl {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/dxl/commands.h"
 #include "app/dxl/target.h"
+#include "core/bus/operations.h"
 #include "core/bus/scan.h"
 #include "core/session/volatilespan.h"
 

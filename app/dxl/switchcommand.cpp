@@ -5,6 +5,7 @@
 #include "app/dxl/noting.h"
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
+#include "core/bus/operations.h"
 #include "core/session/deviceplace.h"
 
 namespace dynascope::dxl {

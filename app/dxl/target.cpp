@@ -2,6 +2,7 @@
 #include "app/dxl/target.h"
 
 #include "app/dxl/showvalue.h"
+#include "core/bus/operations.h"
 
 namespace dynascope::dxl {
 

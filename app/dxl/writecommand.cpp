@@ -3,6 +3,7 @@
 #include "app/dxl/showvalue.h"
 #include "app/dxl/target.h"
 #include "app/dxl/writing.h"
+#include "core/bus/operations.h"
 #include "core/session/groupwrite.h"
 
 #include <algorithm>

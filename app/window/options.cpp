@@ -76,7 +76,7 @@ WindowOptions parseOptions(const QApplication &application)
     if (parser.isSet(history)) {
         options.historyBudget = parser.value(history).toInt();
         if (options.historyBudget < 16 || options.historyBudget > 1'000'000) {
-            std::fprintf(stderr, "dynascope: --history-budget takes 16 megabytes or more, not \"%s\"\n",
+            std::fprintf(stderr, "dynascope: --history-budget takes 16 to 1000000 megabytes, not \"%s\"\n",
                          qPrintable(parser.value(history)));
             std::exit(2);
         }

@@ -7,7 +7,6 @@
 namespace dynascope {
 namespace {
 
-
 Bytes beginPacket(std::uint8_t id)
 {
     return {0xFF, 0xFF, 0xFD, 0x00, id, 0, 0};

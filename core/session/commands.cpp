@@ -2,6 +2,7 @@
 // Registers: writing, reading, torque, LED. What moves a device or makes it reboot is in placecommands.cpp.
 #include "core/session/commands.h"
 
+#include "core/bus/operations.h"
 #include "core/table/units.h"
 
 #include <memory>
@@ -197,10 +198,7 @@ void Commands::finishWrite(DeviceKey key, int fieldIndex, std::int64_t raw,
     }
     if (!next)
         return;
-    const bool ended = !values
-        && (values.error().kind == ErrorKind::Cancelled || values.error().kind == ErrorKind::Stopped
-            || values.error().kind == ErrorKind::PortLost);
-    if (!device || ended) // what waited behind it must not go out after a STOP
+    if (!device || (!values && endsAll(values.error()))) // what waited behind it must not go out after a STOP
         return refuse(nullptr, {ErrorKind::Cancelled, tr("The write before it was cancelled")}, next->done);
     write(*device, fieldIndex, next->raw, next->insisting, std::move(next->done));
 }

@@ -40,6 +40,7 @@ public:
     void clear();
     /// These, in the order of time, and none that is seen from now on: a recording's.
     void showRecorded(std::deque<LoggedEvent> events);
+    bool isRecorded() const { return m_isRecorded; }
 
 signals:
     void added(const dynascope::LoggedEvent &event);

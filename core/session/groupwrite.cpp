@@ -67,9 +67,9 @@ Result<void> checkSameMeaning(const std::vector<GroupMember> &members, int addre
         const bool isAsLong = !one || !other || one->size == other->size || one->size >= length;
         if (here != there || !isAsLong) {
             return refusedWrite(GroupWriteText::tr("%1:%2 is %3 of %4, and %5 of %6: write to each by itself")
-                               .arg(address)
-                               .arg(length)
-                               .arg(here, first->name, there, member.name));
+                                    .arg(address)
+                                    .arg(length)
+                                    .arg(here, first->name, there, member.name));
         }
     }
     return {};

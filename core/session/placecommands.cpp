@@ -2,6 +2,7 @@
 // Commands after which a device stands elsewhere, or is gone for a moment.
 #include "core/session/commands.h"
 
+#include "core/bus/operations.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/resetplan.h"
 
@@ -286,8 +287,7 @@ void Commands::resetNext(const std::shared_ptr<Resets> &resets)
     factoryReset(*next, resets->option, [this, resets](const Result<void> &result) {
         if (!result && resets->outcome)
             resets->outcome = result;
-        const ErrorKind kind = result ? ErrorKind::NotConfirmed : result.error().kind;
-        if (kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled || kind == ErrorKind::PortLost)
+        if (!result && endsAll(result.error()))
             resets->keys.clear();
         resetNext(resets);
     });

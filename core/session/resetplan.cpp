@@ -20,7 +20,8 @@ Result<void> checkEnds(const std::vector<ResetMove> &resets, const std::vector<M
         const MovePlace end = placed(resets[i].after);
         for (std::size_t other = 0; other < i; ++other) {
             if (placed(resets[other].after) == end)
-                return failure(ErrorKind::InvalidArgument, 
+                return failure(
+                    ErrorKind::InvalidArgument,
                     CommandText::tr(
                         "%1 and %2 would both end at %3: keep their IDs, or reset one, give it another ID, and "
                         "then reset the next")
@@ -28,7 +29,7 @@ Result<void> checkEnds(const std::vector<ResetMove> &resets, const std::vector<M
         }
         if (std::ranges::find(others, end) != others.end())
             return failure(ErrorKind::InvalidArgument, CommandText::tr("%1 would end at %2, where another device is")
-                               .arg(resets[i].place.name, placeText(end)));
+                                                           .arg(resets[i].place.name, placeText(end)));
     }
     return {};
 }
@@ -50,7 +51,8 @@ Result<std::vector<std::size_t>> planResets(const std::vector<ResetMove> &resets
         };
         const auto next = std::ranges::find_if(waiting, isFree);
         if (next == waiting.end())
-            return failure(ErrorKind::InvalidArgument, 
+            return failure(
+                ErrorKind::InvalidArgument,
                 CommandText::tr("Each of these would end where another one is: reset them one after the other"));
         order.push_back(*next);
         waiting.erase(next);

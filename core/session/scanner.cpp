@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/scanner.h"
 
+#include "core/bus/operations.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/volatilespan.h"
 #include "core/table/catalog.h"
@@ -53,8 +54,7 @@ public:
             const Result<void> scanned = scanRate();
             if (scanned)
                 continue;
-            const ErrorKind kind = scanned.error().kind;
-            if (kind == ErrorKind::PortLost || kind == ErrorKind::Stopped || kind == ErrorKind::Cancelled)
+            if (endsAll(scanned.error()))
                 return tl::unexpected(scanned.error());
             m_summary.trouble << scanned.error().text; // another rate may do
         }

@@ -122,13 +122,17 @@ constexpr std::array ReplyWords{
     ReplyWord{u"cut", Fault::Cut, Takes::Bytes,
               u"cut[:IDS][=BYTES]         of a reply only so many bytes come; any number of them without BYTES"},
     ReplyWord{u"late", Fault::Late, Takes::Time, u"late[:IDS]=TIME           replies come later: late=20ms@0.1"},
-    ReplyWord{u"twice", Fault::Twice, Takes::Time, u"twice[:IDS]=TIME          replies come again, so long after their end"},
-    ReplyWord{u"reboot", Fault::Reboot, Takes::Share, u"reboot[:IDS][=SHARE]      the device reboots instead of answering"},
+    ReplyWord{u"twice", Fault::Twice, Takes::Time,
+              u"twice[:IDS]=TIME          replies come again, so long after their end"},
+    ReplyWord{u"reboot", Fault::Reboot, Takes::Share,
+              u"reboot[:IDS][=SHARE]      the device reboots instead of answering"},
     ReplyWord{u"wrong-id", Fault::WrongId, Takes::Id, u"wrong-id[:IDS]=ID         replies carry another ID"},
     ReplyWord{u"wrong-length", Fault::WrongLength, Takes::Number,
               u"wrong-length[:IDS]=BYTES  replies carry so many bytes of data more, or fewer (-2)"},
-    ReplyWord{u"stray", Fault::StrayBefore, Takes::Id, u"stray[:IDS]=ID            a valid reply of another ID comes first"},
-    ReplyWord{u"garbage", Fault::NoiseBefore, Takes::Bytes, u"garbage[:IDS]=BYTES       so many stray bytes come first"},
+    ReplyWord{u"stray", Fault::StrayBefore, Takes::Id,
+              u"stray[:IDS]=ID            a valid reply of another ID comes first"},
+    ReplyWord{u"garbage", Fault::NoiseBefore, Takes::Bytes,
+              u"garbage[:IDS]=BYTES       so many stray bytes come first"},
 };
 
 Result<void> addReplyFault(const Word &word, const ReplyWord &means, LineFaults &faults)

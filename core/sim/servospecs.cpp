@@ -35,8 +35,8 @@ Result<ServoSpec> parseOne(QStringView entry, const Catalog &catalog)
     const qsizetype colon = entry.lastIndexOf(u':');
     const qsizetype at = entry.lastIndexOf(u'@');
     if (at < 1 || colon < at)
-        return wrongSpec(entry,
-                     QStringLiteral("a device is written MODEL[/FIRMWARE]@BAUD:ID[+ID2], as in XM430-W350@57600:1"));
+        return wrongSpec(
+            entry, QStringLiteral("a device is written MODEL[/FIRMWARE]@BAUD:ID[+ID2], as in XM430-W350@57600:1"));
     const QStringView device = entry.first(at);
     const qsizetype slash = device.lastIndexOf(u'/');
     ServoSpec spec;

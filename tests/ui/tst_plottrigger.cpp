@@ -196,18 +196,34 @@ private slots:
         choice.settings.after = 1s;
         trigger.choose(choice);
         trigger.setOn(true, 2s);
-        const auto shown = [&trigger](LineTime now) {
+        const auto changes = [&trigger](LineTime now) {
             std::size_t budget = 100;
-            const bool changed = trigger.advance(nullptr, nullptr, now, budget);
-            return changed ? trigger.shown() : std::nullopt;
+            return trigger.advance(nullptr, nullptr, now, budget);
         };
-        QVERIFY(!shown(4s)); // what was before it was armed doesn't count, nor what is still to come
-        QVERIFY(!shown(5s + 500ms)); // what follows it is wanted, too
-        QCOMPARE(shown(6s).value_or(0s), LineTime(5s));
-        QVERIFY(!shown(8s));
-        QVERIFY(!shown(4s)); // sought back
-        QCOMPARE(shown(6s + 500ms).value_or(0s), LineTime(5s));
-        QCOMPARE(shown(20s).value_or(0s), LineTime(9s));
+        QVERIFY(!changes(4s)); // what was before it was armed doesn't count, nor what is still to come
+        QVERIFY(!changes(5s + 500ms)); // what follows it is wanted, too
+        QVERIFY(changes(6s));
+        QCOMPARE(trigger.shown().value_or(0s), LineTime(5s));
+        QVERIFY(!changes(8s));
+        QVERIFY(changes(4s)); // gone back: nothing is shown, and it is armed there
+        QVERIFY(!trigger.shown());
+        QVERIFY(changes(20s)); // a jump over all: one after the other
+        QCOMPARE(trigger.shown().value_or(0s), LineTime(5s));
+        QVERIFY(changes(20s));
+        QCOMPARE(trigger.shown().value_or(0s), LineTime(9s));
+        QVERIFY(!changes(30s));
+    }
+
+    void whatLivePlotsLoseDoesNotArmAnew()
+    {
+        TriggerBench bench;
+        bench.area.arm(bench.choice(TriggerSettings::Mode::Single));
+        bench.jump(10s);
+        QTRY_VERIFY(bench.isShown(10s));
+        QVERIFY(bench.area.trigger().isDone());
+        bench.area.removeTrace(bench.position); // of what is plotted nothing is newer than 0 s now
+        QTest::qWait(60);
+        QVERIFY(bench.area.trigger().isDone());
     }
 
     void moreThanEightHavePatterns()

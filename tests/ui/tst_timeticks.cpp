@@ -30,6 +30,11 @@ void TestTimeTicks::steps_data()
     QTest::newRow("an hour") << 3600.0 << 10 << 600.0;
     QTest::newRow("a day") << 86400.0 << 10 << 10800.0;
     QTest::newRow("a week") << 604800.0 << 10 << 86400.0;
+    QTest::newRow("a week in a narrow panel") << 604800.0 << 6 << 2 * 86400.0;
+    QTest::newRow("a week in a very narrow panel") << 604800.0 << 1 << 7 * 86400.0;
+    QTest::newRow("10 min in whole columns") << 600.000000285 << 10 << 60.0;
+    QTest::newRow("10 s in whole columns") << 10.0000005 << 10 << 1.0;
+    QTest::newRow("100 s in whole columns") << 100.00000285 << 10 << 10.0;
     QTest::newRow("room for none") << 10.0 << 0 << 10.0;
 }
 
@@ -51,6 +56,7 @@ void TestTimeTicks::labels_data()
     QTest::newRow("parts of a second") << -0.4 << 0.2 << -2.0 << QStringLiteral("−0.4 s");
     QTest::newRow("nearly nothing is nothing") << -1e-9 << 0.2 << -2.0 << QStringLiteral("0.0 s");
     QTest::newRow("two minutes are seconds yet") << -105.0 << 15.0 << -120.0 << QStringLiteral("−105 s");
+    QTest::newRow("two minutes in whole columns") << -105.0 << 15.0 << -120.0000006 << QStringLiteral("−105 s");
     QTest::newRow("minutes and seconds") << -90.0 << 30.0 << -300.0 << QStringLiteral("−1:30 min");
     QTest::newRow("a digit before") << -65.0 << 5.0 << -130.0 << QStringLiteral("−1:05 min");
     QTest::newRow("far from now, near to see") << -300.4 << 0.2 << -301.0 << QStringLiteral("−5:00.4 min");

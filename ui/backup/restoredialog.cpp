@@ -20,8 +20,9 @@ QString linesOf(const RestorePlan &plan, RowState state, const QString &heading)
     for (const RestoreRow &row : plan.rows) {
         if (row.state != state)
             continue;
-        lines << (state == RowState::Differs ? QStringLiteral("    %1: %2 → %3").arg(row.name, row.nowText, row.wantedText)
-                                          : QStringLiteral("    %1: %2").arg(row.name, row.why));
+        lines << (state == RowState::Differs
+                      ? QStringLiteral("    %1: %2 → %3").arg(row.name, row.nowText, row.wantedText)
+                      : QStringLiteral("    %1: %2").arg(row.name, row.why));
     }
     return lines.isEmpty() ? QString() : heading + u'\n' + lines.join(u'\n') + u'\n';
 }

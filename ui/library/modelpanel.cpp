@@ -28,8 +28,8 @@ constexpr int NumberWidth = 56;
 
 enum Role {
     ModelNumberRole = Qt::UserRole, ///< int: the model's number; missing for series and files
-    MessageRole,               ///< QString: why a file was refused
-    WordsRole,                 ///< QString: what the filter looks in, names without spaces and '-'
+    MessageRole,                    ///< QString: why a file was refused
+    WordsRole,                      ///< QString: what the filter looks in, names without spaces and '-'
 };
 
 /// Rows in which all the words are, and what is above them.
@@ -252,8 +252,8 @@ void ModelPanel::filter(const QString &text)
 void ModelPanel::select(int modelNumber)
 {
     const auto find = [this, modelNumber] {
-        const QModelIndexList found =
-            m_shown->match(m_shown->index(0, 0), ModelNumberRole, modelNumber, 1, Qt::MatchExactly | Qt::MatchRecursive);
+        const QModelIndexList found = m_shown->match(m_shown->index(0, 0), ModelNumberRole, modelNumber, 1,
+                                                     Qt::MatchExactly | Qt::MatchRecursive);
         return found.isEmpty() ? QModelIndex() : found.front();
     };
     QModelIndex index = find();

@@ -43,7 +43,7 @@ const RegisterIndex::Entry *SearchModel::entry(const QModelIndex &index) const
     if (!index.isValid())
         return nullptr;
     const std::size_t row = index.internalId() == ModelLevel ? static_cast<std::size_t>(index.row())
-                                                           : static_cast<std::size_t>(index.internalId()) - 1;
+                                                             : static_cast<std::size_t>(index.internalId()) - 1;
     return &m_entries[row];
 }
 

@@ -22,18 +22,22 @@ void PlotTrigger::choose(const TriggerChoice &choice)
 void PlotTrigger::setOn(bool on, LineTime now)
 {
     m_now = now;
+    m_nextEvent = m_log.indexAt(now);
     if (on)
         m_trigger.arm(now);
     else
         m_trigger.disarm();
 }
 
-/// A recording's are all in the log before their time has come.
+/// A recording's are all in the log before their time has come. While one fills, those behind it wait.
 void PlotTrigger::lookAtEvents(LineTime now)
 {
     const auto &events = m_log.events();
-    for (std::size_t i = m_log.indexAt(m_now + LineTime(1)); i < events.size() && events[i].at <= now; ++i)
-        m_trigger.event(events[i].at);
+    for (; m_nextEvent < events.size() && events[m_nextEvent].at <= now; ++m_nextEvent) {
+        if (m_trigger.state() != Trigger::State::Armed)
+            return;
+        m_trigger.event(events[m_nextEvent].at);
+    }
 }
 
 bool PlotTrigger::advance(const TraceModel *model, const History *history, LineTime now, std::size_t &budget)
@@ -51,11 +55,15 @@ bool PlotTrigger::advance(const TraceModel *model, const History *history, LineT
                                                                            : TriggerSettings::Kind::Rising;
     }
     m_trigger.set(settings);
-    if (now < m_now)
-        m_trigger.arm(now);
-    else
+    if (m_log.isRecorded()) {
+        if (now < m_now) {
+            const bool wasShown = shown().has_value();
+            setOn(true, now);
+            return wasShown;
+        }
+        m_now = now;
         lookAtEvents(now);
-    m_now = now;
+    }
     return m_trigger.advance(row >= 0 ? history : nullptr, now, budget);
 }
 

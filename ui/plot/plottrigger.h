@@ -37,8 +37,8 @@ public:
     void choose(const TriggerChoice &choice); ///< setOn() then begins it
     void setOn(bool on, LineTime now);
 
-    /// With each frame. `model` holds the trace, if it is shown; `now` is the newest sample of all. True: shown() changed.
-    /// In a replay `now` is where that stands; gone back, it is armed anew there.
+    /// With each frame. `model` holds the trace, if it is shown; `now` is the newest sample of all, in a replay where that
+    /// stands; gone back, it is armed anew there. True: shown() changed.
     bool advance(const TraceModel *model, const History *history, LineTime now, std::size_t &budget);
     std::optional<LineTime> shown() const { return m_trigger.shown(); }
     TriggerMark mark(const TraceModel *model) const;
@@ -49,7 +49,9 @@ private:
     const EventLog &m_log;
     TriggerChoice m_choice;
     Trigger m_trigger;
-    LineTime m_now{}; ///< as of the last look
+    // In a replay:
+    LineTime m_now{};            ///< where it stood at the last look
+    std::size_t m_nextEvent = 0; ///< of the log
 };
 
 } // namespace dynascope

@@ -13,7 +13,9 @@ namespace dynascope {
 namespace {
 
 constexpr double Minute = 60, Hour = 60 * Minute;
+constexpr double Day = 24 * Hour;
 constexpr double LongestInSeconds = 2 * Minute;
+constexpr double Slack = 1 + 1e-6; ///< a view is whole columns wide: hardly longer than it was asked to be
 
 struct TimeTicks {
     Q_DECLARE_TR_FUNCTIONS(TimeTicks)
@@ -37,14 +39,15 @@ QString clockText(double amount, double unit, int decimals)
 double timeStep(const TimeStretch &stretch, int most)
 {
     const double least = stretch.span() / std::max(most, 1);
-    if (least > 10) {
+    if (least > 10 * Slack) {
         for (const double step : {15.0, 30.0, Minute, 2 * Minute, 5 * Minute, 10 * Minute, 15 * Minute, 30 * Minute, Hour,
-                 2 * Hour, 3 * Hour, 6 * Hour, 12 * Hour, 24 * Hour}) {
-            if (least <= step)
+                 2 * Hour, 3 * Hour, 6 * Hour, 12 * Hour, Day}) {
+            if (least <= step * Slack)
                 return step;
         }
+        return std::ceil(least / Slack / Day) * Day;
     }
-    return niceStep(stretch.span(), most);
+    return niceStep(stretch.span() / Slack, most);
 }
 
 QString timeLabel(double seconds, double step, const TimeStretch &stretch)
@@ -54,9 +57,9 @@ QString timeLabel(double seconds, double step, const TimeStretch &stretch)
     const double amount = std::round(std::abs(seconds) / unit) * unit; // else 59.99… would become "0:60"
     const QString sign = seconds < 0 && amount > 0 ? withMinus(QStringLiteral("-")) : QString();
     const double farthest = std::max(std::abs(stretch.from), std::abs(stretch.to));
-    if (farthest <= LongestInSeconds)
+    if (farthest <= LongestInSeconds * Slack)
         return sign + TimeTicks::tr("%1 s").arg(QString::number(amount, 'f', decimals));
-    if (farthest <= Hour) {
+    if (farthest <= Hour * Slack) {
         return sign + TimeTicks::tr("%1 min").arg(step < Minute ? clockText(amount, Minute, decimals)
                                                                 : QString::number(amount / Minute, 'f', 0));
     }

@@ -17,9 +17,9 @@ namespace dynascope {
 namespace {
 
 enum Column { What, Now, Then, Where, Columns };
-constexpr int Gap = 16;       ///< behind the widest text of a column
+constexpr int Gap = 16;           ///< behind the widest text of a column
 constexpr int PlanRowHeight = 22; ///< as of the joints and registers
-constexpr int Widest = 280;   ///< of a column: what is wider is whole in its tool tip
+constexpr int Widest = 280;       ///< of a column: what is wider is whole in its tool tip
 
 } // namespace
 

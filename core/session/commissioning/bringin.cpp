@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/commissioning/bringin.h"
 
+#include "core/bus/operations.h"
 #include "core/session/deviceplace.h"
 #include "core/session/journal/journalwrites.h"
 #include "core/session/procedures/atbaud.h"
@@ -25,7 +26,7 @@ tl::unexpected<Error> untouched(ErrorKind kind, const QString &why)
 
 tl::unexpected<Error> untouched(const Error &error)
 {
-    return endsCommissioning(error) ? tl::unexpected(error) : untouched(error.kind, error.text);
+    return endsAll(error) ? tl::unexpected(error) : untouched(error.kind, error.text);
 }
 
 /// One servo on its way to its place.
@@ -65,7 +66,7 @@ public:
             return false;
         const auto differences = compare();
         if (!differences)
-            return endsCommissioning(differences.error()) ? Result<bool>(tl::unexpected(differences.error())) : false;
+            return endsAll(differences.error()) ? Result<bool>(tl::unexpected(differences.error())) : false;
         return *differences == 0;
     }
 
@@ -282,7 +283,7 @@ private:
                           const Result<std::vector<PollValue>> &after) { end(writeOfSetting(write), after, before); };
         const auto outcome = applySettings(m_context, *plan, hooks);
         const Result<void> done = outcome ? problemOf(*outcome) : tl::unexpected(outcome.error());
-        if (done || endsCommissioning(done.error()))
+        if (done || endsAll(done.error()))
             return done;
         return failure(done.error().kind, CommissioningText::tr("It stands at its place (%1), but is not set up: %2")
                                               .arg(placeText(m_joint.place), done.error().text));
@@ -335,11 +336,6 @@ private:
 };
 
 } // namespace
-
-bool endsCommissioning(const Error &error)
-{
-    return error.kind == ErrorKind::Stopped || error.kind == ErrorKind::Cancelled || error.kind == ErrorKind::PortLost;
-}
 
 Result<QString> doubtByReads(JobContext &context, const Found &found, const ControlTable &table)
 {

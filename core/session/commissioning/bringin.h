@@ -29,7 +29,5 @@ Result<CommissionFacts> bringIn(JobContext &context, const BringIn &what, bool &
 /// this list.
 Result<std::optional<CommissionMemory::HalfDone>> leftHalfDone(const CommissionRoundPlan &plan);
 
-/// STOP, closing, the port gone: not about one device.
-bool endsCommissioning(const Error &error);
 
 } // namespace dynascope

@@ -2,6 +2,7 @@
 #include "core/session/commissioning/commissionround.h"
 
 #include "core/bus/messages.h"
+#include "core/bus/operations.h"
 #include "core/session/commissioning/bringin.h"
 #include "core/session/procedures/atbaud.h"
 #include "core/session/texts.h"
@@ -327,7 +328,7 @@ private:
             tick(*joint, *facts);
             return {};
         }
-        if (endsCommissioning(facts.error()))
+        if (endsAll(facts.error()))
             return tl::unexpected(facts.error());
         m_round.problem = facts.error().text;
         if (m_round.hasWritten)

@@ -40,7 +40,6 @@ QString placeText(const DevicePlace &place)
     return placeText(place.id, place.baudRate);
 }
 
-/// Not about the place: nothing more is asked.
 /// Says that nobody was heard there, but not that nobody is: another one's answer, or what may be an earlier one's.
 bool isInconclusive(const Error &error)
 {

@@ -8,6 +8,7 @@
 #include <QSaveFile>
 
 namespace dynascope {
+
 Result<QByteArray> profileText(const QString &path)
 {
     QFile file(path);

@@ -17,7 +17,6 @@ namespace {
 constexpr LineTime Stall = std::chrono::milliseconds(40); // of a busy host or adapter
 constexpr std::uint16_t ModelNumberAt = 0;                // of every device of Protocol 2.0: "Model Number"
 
-/// Errors that are about the line, not about one device.
 QString nameOf(const ProfileJoint &joint)
 {
     return QStringLiteral("%1 (%2, ID %3)").arg(joint.name, joint.model).arg(joint.id);
