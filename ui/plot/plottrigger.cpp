@@ -54,7 +54,8 @@ bool PlotTrigger::advance(const TraceModel *model, const History *history, LineT
             settings.kind = settings.kind == TriggerSettings::Kind::Rising ? TriggerSettings::Kind::Falling
                                                                            : TriggerSettings::Kind::Rising;
     }
-    m_trigger.set(settings);
+    if (row >= 0 || settings.kind == TriggerSettings::Kind::Event) // without its trace it waits as it is
+        m_trigger.set(settings);
     if (m_log.isRecorded()) {
         if (now < m_now) {
             const bool wasShown = shown().has_value();
