@@ -60,7 +60,7 @@ void RecordWriter::run()
         }
         for (const RecordQueue::Item &item : items)
             take(item);
-        if (m_sink && m_isDirty && (closed || Clock::now() >= m_dirtySince + FlushAfter))
+        if (m_sink && (closed || (m_isDirty && Clock::now() >= m_dirtySince + FlushAfter)))
             flush(closed);
         tell();
     }

@@ -58,6 +58,7 @@ private slots:
     void recordsAll();
     void recordsOnceWhatOneReplyBrought();
     void isOnTheDiskWithinASecond();
+    void isWholeWithoutASample();
     void splits_data();
     void splits();
     void splitsCsvForANewDevice();
@@ -138,6 +139,15 @@ void TestRecorder::isOnTheDiskWithinASecond()
     QVERIFY(!Recording::open(path).value()->isWhole());
     recorder->add(polled(1));
     QTRY_COMPARE(allBatches(*Recording::open(path).value()).size(), std::size_t(2));
+    recorder->wait(); // nothing has come since
+    QVERIFY(Recording::open(path).value()->isWhole());
+}
+
+void TestRecorder::isWholeWithoutASample()
+{
+    auto recorder = Recorder::start(settings(u"a.mcap"_s)).value();
+    const QString path = recorder->wait().path;
+    QVERIFY(Recording::open(path).value()->isWhole());
 }
 
 void TestRecorder::splits_data()
