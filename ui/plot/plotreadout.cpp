@@ -3,6 +3,7 @@
 
 #include "ui/common/texts.h"
 #include "ui/common/theme.h"
+#include "ui/plot/timeticks.h"
 
 #include <QCoreApplication>
 #include <QPainter>
@@ -24,9 +25,9 @@ struct Row {
 
 QString timeText(const TimeView &view, LineTime at)
 {
-    const double seconds = std::chrono::duration<double>(at - view.zero).count();
-    return QCoreApplication::translate("PlotReadout", "%1 s")
-        .arg(withMinus(QString::number(seconds, 'f', view.step < std::chrono::milliseconds(1) ? 4 : 2)));
+    const auto seconds = [&view](LineTime time) { return std::chrono::duration<double>(time - view.zero).count(); };
+    const double step = view.step < std::chrono::milliseconds(1) ? 1e-4 : 1e-2;
+    return timeLabel(seconds(at), step, {seconds(view.from()), seconds(view.to())});
 }
 
 } // namespace
