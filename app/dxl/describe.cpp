@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Global options and the commands that find devices; registers and actions are described beside this.
 #include "app/dxl/helpformatter.h"
+#include "app/dxl/modelscommand.h"
 #include "app/dxl/typed.h"
 
 #include <algorithm>

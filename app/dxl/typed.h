@@ -49,7 +49,6 @@ void describeRegisters(CLI::App &app, Typed &typed); ///< table, read, write, wa
 void describeActions(CLI::App &app, Typed &typed);   ///< torque, led, reboot, reset, clear, stop
 void describePacket(CLI::App &app, Typed &typed);
 void describeRecordings(CLI::App &app, Typed &typed); ///< record, replay, convert
-void describeModels(CLI::App &app, ModelsArguments &typed);
 void addIds(CLI::App &command, Typed &typed); ///< the devices, as a positional argument
 /// @}
 
