@@ -14,7 +14,7 @@ QString useText(BackupUse use)
     switch (use) {
     case BackupUse::Calibration: return CompareModel::tr("of the single device");
     case BackupUse::Place: return CompareModel::tr("where it is");
-    case BackupUse::Motion: return CompareModel::tr("never restored");
+    case BackupUse::Motion:
     case BackupUse::Order: return CompareModel::tr("never restored");
     case BackupUse::Reading: return CompareModel::tr("a reading");
     case BackupUse::Identity: return CompareModel::tr("can't change");

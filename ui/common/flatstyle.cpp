@@ -275,10 +275,10 @@ int FlatStyle::pixelMetric(PixelMetric metric, const QStyleOption *option, const
     case PM_SplitterWidth: return 1; // QSplitter widens the grip of a 1-pixel handle by itself
     case PM_HeaderMargin: return HeaderMargin;
     case PM_FocusFrameHMargin: return HeaderMargin - 2; // left and right of a cell's text, and of its icon
-    case PM_ToolBarFrameWidth: return 0;
-    case PM_ToolBarItemMargin: return 4;
+    case PM_ToolBarItemMargin:
     case PM_ToolBarItemSpacing: return 4;
     case PM_ScrollBarExtent: return 12;
+    case PM_ToolBarFrameWidth:
     case PM_ButtonShiftHorizontal:
     case PM_ButtonShiftVertical: return 0;
     default: return QProxyStyle::pixelMetric(metric, option, widget);
@@ -290,7 +290,7 @@ int FlatStyle::styleHint(StyleHint hint, const QStyleOption *option, const QWidg
 {
     switch (hint) {
     case SH_EtchDisabledText:
-    case SH_DitherDisabledText: return 0;
+    case SH_DitherDisabledText:
     case SH_DialogButtonBox_ButtonsHaveIcons: return 0;
     default: return QProxyStyle::styleHint(hint, option, widget, returnData);
     }

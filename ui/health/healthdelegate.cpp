@@ -107,13 +107,13 @@ void HealthDelegate::paintShare(QPainter *painter, const QStyleOptionViewItem &o
         return;
     const int middle = option.rect.center().y() + 1;
     const int left = option.rect.left() + Margin;
-    paintIcon(painter, QRectF(left, middle - SignSize / 2, SignSize, SignSize), QLatin1String(sign.icon), sign.color);
+    paintIcon(painter, QRectF(left, middle - SignSize / 2.0, SignSize, SignSize), QLatin1String(sign.icon), sign.color);
     const int digits = painter->fontMetrics().horizontalAdvance(widestHealthCell(HealthColumn::Bad));
     const int room = option.rect.width() - SignSize - digits - 4 * Margin;
     if (room < LeastBar / 2)
         return; // sign and number say it
     const int width = std::min(room, WidestBar);
-    const QRectF track(left + SignSize + Margin, middle - BarHeight / 2, width, BarHeight);
+    const QRectF track(left + SignSize + Margin, middle - BarHeight / 2.0, width, BarHeight);
     painter->setRenderHint(QPainter::Antialiasing);
     painter->setPen(Qt::NoPen);
     painter->setBrush(theme.grid);

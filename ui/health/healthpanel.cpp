@@ -7,6 +7,7 @@
 #include "ui/health/healthmodel.h"
 #include "ui/table/tableheader.h"
 
+#include <QBoxLayout>
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QLabel>

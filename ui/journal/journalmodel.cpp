@@ -48,8 +48,10 @@ void JournalModel::refresh()
     const auto isKnown = [](const JournalEntry &now, const JournalEntry &then) { return now.number == then.number; };
     const auto left = static_cast<std::size_t>(entries.end() - known);
     if (known != entries.end() && left <= m_entries.size()
-        && std::equal(known, entries.end(), m_entries.begin(), isKnown))
-        return insertNewest(std::move(entries), static_cast<int>(known - entries.begin()));
+        && std::equal(known, entries.end(), m_entries.begin(), isKnown)) {
+        const auto added = static_cast<int>(known - entries.begin());
+        return insertNewest(std::move(entries), added);
+    }
     beginResetModel();
     m_entries = std::move(entries);
     endResetModel();

@@ -213,7 +213,7 @@ void TraceImage::paintLines(const Item &item, const TimeView &view, std::size_t 
     const auto visit = [this](int column, float y, bool isSample) {
         if (column < -1 || column + 1 >= static_cast<int>(m_path.size()))
             return;
-        PathColumn &path = m_path[static_cast<std::size_t>(column + 1)];
+        PathColumn &path = m_path[static_cast<std::size_t>(column) + 1];
         path.include(y);
         path.samples += isSample ? 1 : 0;
     };

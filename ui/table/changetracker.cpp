@@ -23,12 +23,14 @@ void ChangeTracker::reset(int devices, int fields)
 
 const ChangeTracker::Cell &ChangeTracker::cell(int device, int field) const
 {
-    return m_cells[static_cast<std::size_t>(device * m_fields + field)];
+    return m_cells[static_cast<std::size_t>(device) * static_cast<std::size_t>(m_fields)
+                   + static_cast<std::size_t>(field)];
 }
 
 ChangeTracker::Cell &ChangeTracker::cell(int device, int field)
 {
-    return m_cells[static_cast<std::size_t>(device * m_fields + field)];
+    return m_cells[static_cast<std::size_t>(device) * static_cast<std::size_t>(m_fields)
+                   + static_cast<std::size_t>(field)];
 }
 
 bool ChangeTracker::observe(int device, int field, const FieldValue &value, bool mark)

@@ -172,7 +172,7 @@ QModelIndex FieldTableModel::indexOf(int row, int column) const
         const std::vector<int> &rows = groups()[group].fields;
         const auto found = std::ranges::lower_bound(rows, row);
         if (found != rows.end() && *found == row)
-            return createIndex(static_cast<int>(found - rows.begin()), column, static_cast<quintptr>(group + 1));
+            return createIndex(static_cast<int>(found - rows.begin()), column, static_cast<quintptr>(group) + 1);
     }
     return {};
 }

@@ -43,7 +43,7 @@ void FieldTableModel::emitRows(int group, const std::vector<char> &dirty, int fi
     constexpr int Gap = 8;
     const std::vector<int> &fields = groups()[static_cast<std::size_t>(group)].fields;
     const auto tell = [&](int first, int last) {
-        const auto id = static_cast<quintptr>(group + 1);
+        const auto id = static_cast<quintptr>(group) + 1;
         emit dataChanged(createIndex(first, firstColumn, id), createIndex(last, lastColumn, id));
     };
     int first = -1;
