@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Compiling for somebody who wants the whole, not the next change: the sources of a folder are read as few, which takes a
-# third of the time. So no two sources of one
-# folder may define the same in their anonymous namespaces. The preset dev compiles each alone, and shows missing includes.
+# third of the time. So no two sources of one folder may define the same in their anonymous namespaces. The preset dev
+# compiles each alone, and shows missing includes.
 option(DYNASCOPE_UNITY "Compile the sources of each folder together" OFF)
 set(DYNASCOPE_UNITY_LENGTH 12) # sources at a time
 

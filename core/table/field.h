@@ -42,11 +42,6 @@ enum class Unit {
     PulsePerMs,
 };
 
-constexpr bool isAngle(Unit unit)
-{
-    return unit == Unit::Pulse || unit == Unit::Degree;
-}
-
 /// A limit: a number, or another register of the same table, perhaps with its sign turned.
 struct Bound {
     std::optional<std::int64_t> number;

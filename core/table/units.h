@@ -6,6 +6,11 @@
 
 namespace dynascope {
 
+constexpr bool isAngle(Unit unit)
+{
+    return unit == Unit::Pulse || unit == Unit::Degree;
+}
+
 /// How positions are shown.
 enum class AngleUnit { Degrees, Radians, Pulses, Turns };
 

@@ -138,9 +138,9 @@ void ChartFrame::applyColors(const Content &content)
     }
 }
 
-void ChartFrame::applyRanges(const Content &content)
+void ChartFrame::applyRanges(const Content &content, double seconds)
 {
-    setRange(m_time, content.fromSeconds, content.toSeconds, labelledStep(content));
+    setRange(m_time, content.fromSeconds, content.toSeconds, seconds);
     for (std::size_t i = 0; i < m_values.size(); ++i) {
         const ValueAxis &value = content.values[i];
         m_values[i]->setVisible(value.isUsed);
@@ -180,7 +180,8 @@ void ChartFrame::draw(QPainter &painter, const Content &content)
         m_chart->layout()->invalidate();
         m_chart->layout()->activate();
     }
-    applyRanges(content);
+    const double seconds = labelledStep(content); // between the labels of the time axis
+    applyRanges(content, seconds);
     m_chart->layout()->activate();
 
     const QRectF area = plotArea(content);
@@ -193,7 +194,7 @@ void ChartFrame::draw(QPainter &painter, const Content &content)
     painter.setPen(theme.border);
     painter.drawRect(area.adjusted(0, 0, -1, -1));
     painter.setPen(theme.dimmed);
-    paintTimes(painter, content, labelledStep(content));
+    paintTimes(painter, content, seconds);
     for (int axis = 0; axis < MostAxes; ++axis)
         paintValues(painter, content, axis);
 }

@@ -71,7 +71,7 @@ public:
 private:
     void draw(QPainter &painter, const Content &content);
     void applyColors(const Content &content);
-    void applyRanges(const Content &content);
+    void applyRanges(const Content &content, double seconds);
     static void paintTimes(QPainter &painter, const Content &content, double step);
     static void paintValues(QPainter &painter, const Content &content, int axis);
 
