@@ -158,6 +158,7 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     if (const Result<LineTime> begun = begin(packet); !begun)
         return tl::unexpected(begun.error());
     waiting.sent = waiting.origin = m_channel.sentBy();
+    m_answerEnd = answerEnd(request, waiting.sent);
     const Result<void> listened = listen(request, waiting);
     const Observations &seen = m_collector.seen();
     carried(packet.size() + seen.bytesReceived - (seen.echo ? std::min(packet.size(), seen.bytesReceived) : 0));
@@ -172,6 +173,9 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     result.seen.roundTrip = last - waiting.begin;
     explainSilence(request, result);
     m_echoes = m_echoes || result.seen.echo;
+    const auto hasCome = [](const Result<Reply> &reply) { return reply && reply->bytes > 0; };
+    if (!result.replies.empty() && std::ranges::all_of(result.replies, hasCome))
+        m_channel.noteAnswered();
     learn(request, result, waiting.sent);
     remember(request, result, waiting.sent);
     for (const ExpectedReply &reply : request.replies)
@@ -247,7 +251,7 @@ Result<void> Bus::prepare()
     if (!m_unsettled)
         return {};
     const LineTime quiet = timing::silence(m_channel.line());
-    const LineTime sofar = std::max(LineTime(), m_channel.now() - std::max(m_channel.lastByteAt(), m_channel.sentBy()));
+    const LineTime sofar = m_channel.quietFor();
     if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit, Channel::Heed::Orders);
         !settled)
         return settled;
@@ -295,6 +299,29 @@ Result<void> Bus::sendOnly(ByteView packet)
     m_unsettled = true;
     carried(packet.size());
     return m_channel.waitUntil(m_channel.sentBy(), Channel::Heed::Nothing);
+}
+
+Result<void> Bus::settle(LineTime quiet, LineTime limit)
+{
+    return m_channel.settle(quiet, limit, Channel::Heed::Nothing);
+}
+
+Result<void> Bus::letEnd(LineTime pause, LineTime limit)
+{
+    const LineTime end = m_channel.now() + limit;
+    LineTime until = m_channel.now();
+    do {
+        const Result<ByteView> received = m_channel.receive(std::min(until, end));
+        if (!received)
+            return tl::unexpected(received.error());
+        m_channel.countDiscarded(received->size());
+        const LineTime heard = m_channel.lastByteAt();
+        until = m_channel.isAnswered() ? LineTime() : m_answerEnd + pause;
+        if (heard > m_channel.sentBy())
+            until = std::max(until, heard + pause);
+    } while (m_channel.now() < std::min(until, end));
+    m_channel.line().discardInput();
+    return {};
 }
 
 Result<void> Bus::listen(const Request &request, Waiting &waiting)

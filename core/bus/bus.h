@@ -47,10 +47,11 @@ public:
     Result<void> sendOnly(ByteView packet);
 
     /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
-    Result<void> settle(LineTime quiet, LineTime limit)
-    {
-        return m_channel.settle(quiet, limit, Channel::Heed::Nothing);
-    }
+    Result<void> settle(LineTime quiet, LineTime limit);
+
+    /// Lets an answer that may be under way end, as long as it takes by what was asked, and then until `pause` long
+    /// nothing has come; at most `limit`. Discards it. Looks at no stop flag.
+    Result<void> letEnd(LineTime pause, LineTime limit);
 
     /// Lets time pass; what comes meanwhile is discarded.
     Result<void> wait(LineTime duration)
@@ -95,7 +96,7 @@ private:
     Result<LineTime> begin(ByteView packet);
     LineTime deadline(const Request &request, const Waiting &waiting) const;
     LineTime longestWait(const Request &request, const Waiting &waiting) const;
-    LineTime allowance(const Request &request) const;
+    LineTime allowance(const Request &request) const, answerEnd(const Request &request, LineTime sent) const;
     bool isMute(const Request &request, std::uint8_t id) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);
@@ -108,6 +109,7 @@ private:
     LearnedTiming m_timing;
     Parser m_idle; ///< takes apart what comes while nobody waits
     QualityLog m_quality;
+    LineTime m_answerEnd{}; ///< on the wire, of the last request
     std::array<Traits, 256> m_traits; ///< by ID, where m_known says so: the first listed
     std::vector<Traits> m_moreTraits; ///< of the same IDs at other rates
     std::bitset<256> m_known;

@@ -57,6 +57,21 @@ LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
         + (isMute(request, next) ? timing::processing(Instruction::Read) : processing);
 }
 
+/// Of a broadcast Ping, that of the first who answers.
+LineTime Bus::answerEnd(const Request &request, LineTime sent) const
+{
+    const LineTime byteTime = m_channel.line().byteTime();
+    if (request.shape == ReplyShape::Anyone)
+        return sent + Traits().returnDelay + timing::times(timing::largestStatus(PingReplyLength), byteTime);
+    LineTime end = sent + timing::times(request.maximumReplySize(), byteTime);
+    for (const ExpectedReply &reply : request.replies) {
+        end += traits(reply.id).returnDelay;
+        if (request.shape == ReplyShape::Fast) // the others follow at once
+            break;
+    }
+    return end;
+}
+
 /// Will this device keep silent about this request, by its Status Return Level?
 bool Bus::isMute(const Request &request, std::uint8_t id) const
 {

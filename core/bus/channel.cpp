@@ -32,6 +32,7 @@ Result<LineTime> Channel::send(ByteView packet)
     if (Result<void> written = keep(m_line.write(packet)); !written)
         return tl::unexpected(written.error());
     m_sentBy = begin + static_cast<LineTime::rep>(packet.size()) * m_line.byteTime();
+    m_isAnswered = false;
     m_lastSent.assign(packet.begin(), packet.end());
     m_bytesSent += packet.size();
     return begin;
@@ -84,8 +85,8 @@ Result<void> Channel::setBaudRate(int bitsPerSecond)
 {
     if (bitsPerSecond == m_line.baudRate())
         return {};
-    if (m_sentBy + DrainMargin > m_line.now()) {
-        const LineTime drained = m_sentBy + std::min(DrainMargin, m_line.hostAllowance());
+    const LineTime drained = m_sentBy + (m_isAnswered ? LineTime() : std::min(DrainMargin, m_line.hostAllowance()));
+    if (drained > m_line.now()) {
         if (Result<void> waited = waitUntil(drained, Heed::Nothing); !waited)
             return waited;
     }

@@ -3,6 +3,7 @@
 
 #include "core/bus/line.h"
 
+#include <algorithm>
 #include <atomic>
 #include <optional>
 
@@ -29,6 +30,10 @@ public:
     Result<LineTime> send(ByteView packet);
     LineTime sentBy() const { return m_sentBy; } ///< when the last byte of the last packet has left
     LineTime lastByteAt() const { return m_lastByteAt; } ///< when something came last
+    /// How long nothing has come or gone, as far as was looked.
+    LineTime quietFor() const { return std::max(LineTime(), m_line.now() - std::max(m_lastByteAt, m_sentBy)); }
+    void noteAnswered() { m_isAnswered = true; } ///< what was sent last, so that it has left
+    bool isAnswered() const { return m_isAnswered; }
     ByteView lastSent() const { return m_lastSent; }
 
     /// What came until `until`, or at once where something did; valid until the next call. May be nothing.
@@ -59,6 +64,7 @@ private:
     std::optional<Error> m_lost;
     Bytes m_received, m_lastSent;
     LineTime m_sentBy{}, m_lastByteAt{};
+    bool m_isAnswered = true;
     quint64 m_bytesSent = 0, m_bytesDiscarded = 0;
 };
 

@@ -15,9 +15,8 @@ using namespace std::chrono_literals;
 
 namespace {
 
-/// Somebody else's packet may just be on the wire; longer than this STOP doesn't wait for it.
-constexpr LineTime WireFree = 500us;
-constexpr LineTime WireFreeLimit = 2ms;
+constexpr LineTime Pause = 500us;       ///< behind an answer: servos and hosts are not exact
+constexpr LineTime WireFreeLimit = 3ms; ///< longer than this STOP waits for nobody's packet
 constexpr LineTime Quiet = 2ms;
 constexpr LineTime QuietLimit = 20ms;
 constexpr LineTime SecondLook = 50ms; ///< after who did not answer STOP
@@ -92,12 +91,12 @@ Result<void> sendTorqueOff(Bus &bus, const StopPlan &plan, int workingBaud)
     if (plan.targets().empty())
         return {};
     const int present = bus.line().baudRate();
-    if (Result<void> freed = bus.settle(WireFree, WireFreeLimit); !freed)
+    if (Result<void> freed = bus.letEnd(Pause, WireFreeLimit); !freed)
         return freed;
-    if (Result<void> sent = sendTwice(bus, plan.packets(present)); !sent)
-        return sent;
-    for (const int baudRate : plan.bauds()) {
-        if (baudRate == present || !bus.setBaudRate(baudRate))
+    std::vector<int> order = plan.bauds(); // where somebody moves, most likely, comes first
+    std::ranges::stable_sort(order, {}, [=](int baudRate) { return baudRate == present ? 0 : baudRate == workingBaud ? 1 : 2; });
+    for (const int baudRate : order) {
+        if (baudRate != present && !bus.setBaudRate(baudRate))
             continue;
         if (Result<void> sent = sendTwice(bus, plan.packets(baudRate)); !sent)
             return sent;

@@ -66,13 +66,21 @@ public:
         , m_makeBusy(std::move(makeBusy))
     {
         connect(&m_stop, &StopControl::changed, this, [this] {
-            if (m_stop.isActive() && !m_stop.isVerifying() && !std::exchange(m_ending, true))
-                QTimer::singleShot(0, this, &Driver::finished);
+            if (!m_stop.isActive() || m_stop.isVerifying() || m_isEnding)
+                return;
+            if (!m_stop.isConfirmed() && !m_patience.isActive()) { // whose place changed just then is looked for
+                ++later;
+                m_patience.start(2000);
+            }
+            if (m_stop.isConfirmed())
+                end();
         });
+        m_patience.setSingleShot(true);
+        connect(&m_patience, &QTimer::timeout, this, &Driver::end);
         begin();
     }
 
-    int unconfirmed = 0;
+    int later = 0, unconfirmed = 0;
     std::vector<double> excess; ///< ms from press to packet, less the rest of the packet in flight
 
 private:
@@ -86,9 +94,16 @@ private:
         });
     }
 
+    void end()
+    {
+        m_isEnding = true;
+        m_patience.stop();
+        QTimer::singleShot(0, this, &Driver::finished);
+    }
+
     void finished()
     {
-        m_ending = false;
+        m_isEnding = false;
         unconfirmed += m_stop.isConfirmed() ? 0 : 1;
         const Seen seen = firstTorqueOff(m_server, m_press);
         if (seen.found)
@@ -107,7 +122,8 @@ private:
     LineTime m_press{};
     std::uint32_t m_random = 7;
     int m_rounds = 0;
-    bool m_ending = false;
+    bool m_isEnding = false;
+    QTimer m_patience;
 };
 
 void report(const char *what, Driver &driver)
@@ -121,9 +137,9 @@ void report(const char *what, Driver &driver)
     const auto at = [&](double part) {
         return excess[static_cast<std::size_t>(part * static_cast<double>(excess.size() - 1))];
     };
-    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight), %d not "
-                "confirmed\n",
-                what, excess.size(), at(0.5), at(0.99), excess.back(), driver.unconfirmed);
+    std::printf("STOP %-26s %3zu presses: p50 %.2f ms, p99 %.2f ms, max %.2f ms (beyond the packet in flight); %d "
+                "confirmed only after another look, %d not at all\n",
+                what, excess.size(), at(0.5), at(0.99), excess.back(), driver.later, driver.unconfirmed);
 }
 
 } // namespace

@@ -185,6 +185,21 @@ private slots:
         QVERIFY(ping(*world.bus, 2));
     }
 
+    /// Adapters hand the last bytes on a little later than computed, unless there is an answer to them.
+    void theRateWaitsForWhatMayStillLeave()
+    {
+        VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1"));
+        world.line->setHostAllowance(5ms);
+        QVERIFY(ping(*world.bus, 1));
+        LineTime before = world.line->now();
+        QVERIFY(world.bus->setBaudRate(1'000'000));
+        QVERIFY(world.line->now() - before < 100us);
+        QVERIFY(world.bus->sendOnly(encode(pingRequest(1).packet)));
+        before = world.line->now();
+        QVERIFY(world.bus->setBaudRate(57600));
+        QVERIFY(world.line->now() - before >= 2ms);
+    }
+
     void aRebootingDeviceIsHeardAgain()
     {
         VirtualBus world(catalog(), QStringLiteral("XM430-W350@57600:1"));

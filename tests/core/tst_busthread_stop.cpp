@@ -230,6 +230,40 @@ private slots:
         }
     }
 
+    /// The host has nothing of an answer while that is on the wire; it is let end all the same.
+    void talksIntoNoAnswer_data()
+    {
+        QTest::addColumn<int>("length"); // of what is read when it is pressed
+        QTest::newRow("short") << 4;
+        QTest::newRow("long") << 128;
+    }
+    void talksIntoNoAnswer()
+    {
+        QFETCH(int, length);
+        for (LineTime after{}; after < 2500us; after += 50us) {
+            VirtualBus wire(m_catalog, QStringLiteral("XM430-W350@1000000:1"), 1'000'000);
+            wire.simulated.servo(1, 1'000'000)->write(u"Torque Enable", 1);
+            wire.simulated.setLogging(true);
+            wire.line->setHostAllowance(50ms);
+            PressingLine line(*wire.line, wire.stop, 2, after);
+            Bus bus(line, &wire.stop);
+            while (!wire.stop)
+                (void)read(bus, {1, 0, static_cast<std::uint16_t>(length)});
+            const int before = line.packets();
+            QVERIFY(sendTorqueOff(bus, StopPlan({{11, 1, 1'000'000, 64}}), 1'000'000));
+            std::vector<sim::WireEntry> log = wire.simulated.log();
+            std::ranges::stable_sort(log, {}, &sim::WireEntry::begin);
+            int sent = 0;
+            for (std::size_t i = 0; i < log.size(); ++i) {
+                if (!log[i].fromController || ++sent != before + 1)
+                    continue;
+                QVERIFY(log[i].begin - line.pressedAt() <= 4ms);
+                QVERIFY2(i == 0 || log[i - 1].end <= log[i].begin, qPrintable(messages::durationText(after)));
+            }
+            QCOMPARE(sent, before + 2);
+        }
+    }
+
     void stopTurnsTorqueOffEverywhere()
     {
         World world([](FakeLine &, FakeServos &servos) {
