@@ -8,7 +8,7 @@ namespace dynascope {
 namespace {
 
 /// Of a history with its node in a map, and of three deques that are nearly empty.
-constexpr std::size_t FixedBytes = sizeof(History) + 3 * (512 + 64) + 10 * HistoryMemory::Overhead;
+constexpr std::size_t FixedBytes = sizeof(History) + 3 * (512 + 64) + 12 * HistoryMemory::Overhead;
 
 /// The start of column `index` where `count` columns share [from, to), without overflow at any length.
 LineTime columnStart(LineTime from, LineTime to, std::size_t index, std::size_t count)
@@ -67,18 +67,26 @@ private:
     Position m_index = std::numeric_limits<Position>::max();
 };
 
-/// Of [from, to), at least one sample. Whole chunks have one entry each: n / 4096 steps at most for disjoint stretches.
+/// Of [from, to), at least one sample.
 Extremes History::Reader::extremes(Position from, Position to)
 {
     Extremes result;
     while (from < to) {
         const std::size_t begin = from % ChunkSize;
+        if (begin == 0 && to - from >= ChunkSize && from < m_history.m_openBegin) {
+            const Position whole = std::min(to, m_history.m_openBegin) / ChunkSize - from / ChunkSize;
+            const auto first = static_cast<std::size_t>((from - m_history.m_packedBegin) / ChunkSize);
+            for (const Extremes &each : std::span(m_history.m_whole).subspan(first, static_cast<std::size_t>(whole)))
+                result.include(each);
+            from += whole * ChunkSize;
+            continue;
+        }
         const auto count = static_cast<std::size_t>(std::min<Position>(to - from, ChunkSize - begin));
         if (from >= m_history.m_openBegin) {
             result.include(m_history.m_open->extremes(begin, begin + count));
         } else {
             seek(from);
-            result.include(count == ChunkSize ? m_chunk->all() : m_chunk->extremes(begin, begin + count));
+            result.include(m_chunk->extremes(begin, begin + count));
         }
         from += count;
     }
@@ -138,6 +146,8 @@ void History::append(LineTime at, std::int32_t raw)
     if (!m_open || m_end - m_openBegin == ChunkSize)
         openChunk();
     const std::size_t slot = m_end % ChunkSize;
+    if (m_open->makeRoom(slot))
+        m_openCharge = MemoryCharge(m_memory, Detail::Samples, m_open->bytes() + FixedBytes);
     for (std::size_t before = 0; isEmpty() && before < slot; ++before) // no block is without values
         m_open->put(before, at, raw, false);
     m_open->put(slot, at, raw, m_gapPending);
@@ -147,15 +157,17 @@ void History::append(LineTime at, std::int32_t raw)
         dropOldest();
 }
 
-/// What was open is packed, and its memory used again.
+/// What was open is packed.
 void History::openChunk()
 {
     if (!m_open) {
         m_open = std::make_unique<OpenChunk>();
-        m_openCharge = MemoryCharge(m_memory, Detail::Samples, sizeof(OpenChunk) + FixedBytes);
         return;
     }
     m_packed.emplace_back(*m_open, m_memory);
+    m_whole.push_back(m_packed.back().all());
+    m_open->at = {};
+    m_open->raw = {};
     m_openBegin += ChunkSize;
 }
 
@@ -164,7 +176,13 @@ void History::dropOldest()
     ++m_begin;
     if (m_packed.empty() || m_begin - m_packedBegin < ChunkSize)
         return;
+    forgetOldestChunk();
+}
+
+void History::forgetOldestChunk()
+{
     m_packed.pop_front();
+    m_whole.erase(m_whole.begin());
     m_packedBegin += ChunkSize;
 }
 
@@ -224,8 +242,7 @@ void History::foldOldest(Detail detail)
     if (m_packed.empty())
         return;
     m_folded.add(std::move(m_packed.front()), m_memory);
-    m_packed.pop_front();
-    m_packedBegin += ChunkSize;
+    forgetOldestChunk();
     m_begin = m_packedBegin;
 }
 

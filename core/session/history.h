@@ -72,6 +72,7 @@ private:
 
     void openChunk();
     void dropOldest();
+    void forgetOldestChunk();
     Position find(LineTime at) const;
     LineTime foldedEnd() const;
     void foldedColumns(LineTime from, LineTime to, std::span<Column> columns) const;
@@ -80,6 +81,7 @@ private:
     HistoryMemory *m_memory = nullptr;
     FoldedHistory m_folded;
     std::deque<PackedChunk> m_packed;
+    std::vector<Extremes> m_whole; ///< of each packed chunk, side by side: an axis asks for all of them with each frame
     std::unique_ptr<OpenChunk> m_open; ///< behind those; what is full stays open until there is another sample
     MemoryCharge m_openCharge;
     Position m_origin = 0;

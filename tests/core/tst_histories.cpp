@@ -141,8 +141,8 @@ private slots:
         for (int i = 0; i < 30'000; ++i)
             replies.cycle();
         QCOMPARE(samplesOf(histories), std::size_t(20 * 30'000));
-        histories.setBudget(3 << 19);
-        QVERIFY(histories.used() <= 3 << 19);
+        histories.setBudget(1 << 20);
+        QVERIFY(histories.used() <= 1 << 20);
         QVERIFY(samplesOf(histories) < 20 * 30'000);
         histories.setBudget(1); // the newest stay
         QVERIFY(samplesOf(histories) > 20 * 1000);
@@ -181,14 +181,37 @@ private slots:
     {
         Histories histories;
         Replies replies{histories};
-        for (int i = 0; i < 2 * 4096 + 1; ++i)
+        for (int i = 0; i < 2 * 4096 + 2049; ++i)
             replies.cycle();
         const quint64 warm = s_allocations;
-        for (int i = 0; i < 4095; ++i)
+        for (int i = 0; i < 2047; ++i)
             replies.cycle();
         QCOMPARE(s_allocations, warm);
-        replies.cycle(); // 20 chunks are packed
-        QVERIFY(s_allocations > warm && s_allocations < warm + 20 * 12);
+        for (int i = 0; i < 4096; ++i) // 20 chunks are packed, and as many take room again, bit by bit
+            replies.cycle();
+        QVERIFY(s_allocations > warm && s_allocations < warm + 20 * 24);
+    }
+
+    void aShortHistoryIsASmallOne_data()
+    {
+        QTest::addColumn<int>("cycles");
+        QTest::addColumn<double>("bytes"); // a sample, at most
+        QTest::newRow("a few") << 200 << 60.0;
+        QTest::newRow("half a chunk") << 2048 << 16.0;
+        QTest::newRow("a chunk and the first of the next") << 4097 << 5.0;
+        QTest::newRow("ten thousand") << 10'000 << 6.0;
+        QTest::newRow("the third chunk full") << 3 * 4096 << 6.5;
+    }
+    void aShortHistoryIsASmallOne()
+    {
+        QFETCH(const int, cycles);
+        QFETCH(const double, bytes);
+        Histories histories;
+        Replies replies{histories};
+        for (int i = 0; i < cycles; ++i)
+            replies.cycle();
+        const double each = static_cast<double>(histories.used()) / static_cast<double>(samplesOf(histories));
+        QVERIFY2(each <= bytes, qPrintable(QString::number(each)));
     }
 
     void aGapBeforeTheFirstSampleMakesNoHistory()

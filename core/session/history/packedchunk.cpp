@@ -34,7 +34,8 @@ PackedChunk::PackedChunk(const OpenChunk &from, HistoryMemory *memory)
         }
     }
     const std::size_t bytes = sizeof(PackedChunk) + m_valueBytes + m_fine.heapBytes() + m_coarse.heapBytes()
-        + m_gaps.capacity() * sizeof(m_gaps[0]) + 4 * HistoryMemory::Overhead;
+        + m_gaps.capacity() * sizeof(m_gaps[0]) + 4 * HistoryMemory::Overhead
+        + sizeof(Extremes); // and once more in History
     m_charge = MemoryCharge(memory, Detail::Samples, bytes);
 }
 
