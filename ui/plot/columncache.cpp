@@ -2,6 +2,7 @@
 #include "ui/plot/columncache.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace dynascope {
 
@@ -12,25 +13,35 @@ std::span<const History::Column> ColumnCache::columns(const History &history, co
         m_history = nullptr;
         return m_columns;
     }
-    std::int64_t firstStale = view.firstColumn;
+    const std::int64_t moved = view.firstColumn - m_view.firstColumn;
     const bool isKept = m_history == &history && m_view.step == view.step && m_view.columns == view.columns
-        && view.firstColumn >= m_view.firstColumn && view.firstColumn < m_view.firstColumn + m_view.columns
-        && m_mark.stillHolds(history);
+        && std::abs(moved) < view.columns && m_mark.stillHolds(history);
+    m_columns.resize(static_cast<std::size_t>(view.columns));
+    std::int64_t firstStale = view.firstColumn;
     if (isKept) {
-        const auto moved = static_cast<std::ptrdiff_t>(view.firstColumn - m_view.firstColumn);
-        std::move(m_columns.begin() + moved, m_columns.end(), m_columns.begin());
+        if (moved > 0)
+            std::move(m_columns.begin() + moved, m_columns.end(), m_columns.begin());
+        else if (moved < 0) // somebody scrolls back
+            std::move_backward(m_columns.begin(), m_columns.end() + moved, m_columns.end());
+        fill(history, view, view.firstColumn, m_view.firstColumn);
         // More may have come into the column of what was the newest sample, never before it.
-        firstStale =
-            std::clamp<std::int64_t>(m_mark.last.at / view.step, view.firstColumn, m_view.firstColumn + m_view.columns);
-    } else {
-        m_columns.resize(static_cast<std::size_t>(view.columns));
+        firstStale = std::clamp<std::int64_t>(m_mark.last.at / view.step, view.firstColumn,
+            std::min(view.firstColumn, m_view.firstColumn) + view.columns);
     }
-    const auto stale = std::span(m_columns).subspan(static_cast<std::size_t>(firstStale - view.firstColumn));
-    history.columns(view.step * firstStale, view.to(), stale);
+    fill(history, view, firstStale, view.firstColumn + view.columns);
     m_history = &history;
     m_mark = HistoryMark::of(history);
     m_view = view;
     return m_columns;
+}
+
+/// Columns [from, to) of the view.
+void ColumnCache::fill(const History &history, const TimeView &view, std::int64_t from, std::int64_t to)
+{
+    if (from >= to)
+        return;
+    const auto first = static_cast<std::size_t>(from - view.firstColumn);
+    history.columns(view.step * from, view.step * to, std::span(m_columns).subspan(first, static_cast<std::size_t>(to - from)));
 }
 
 } // namespace dynascope
