@@ -40,10 +40,10 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, c
     , m_monitor(monitor)
     , m_colors(session)
     , m_events(new EventLog(session, journal, guard, this))
-    , m_trigger(new PlotTrigger(*m_events, this))
+    , m_trigger(new AreaTrigger(*m_events, monitor, m_panels, m_window, this))
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
-    , m_saver(new PlotSaver(monitor, this))
+    , m_saver(new PlotSaver(monitor, m_panels, *m_splitter, this))
 {
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -90,14 +90,21 @@ void PlotArea::connectBar()
     for (QAction *action : m_bar->saveActions())
         addAction(action); // their keys work though they are in a menu
     connect(&m_bar->layouts(), &QMenu::aboutToShow, this, [this] { fillLayouts(m_bar->layouts()); });
-    connect(m_bar, &PlotBar::drawingRequested, this, &PlotArea::saveSvg);
-    connect(m_bar, &PlotBar::csvRequested, this, &PlotArea::saveCsvFile);
-    connect(m_bar, &PlotBar::pictureRequested, this, [this] { m_saver->askForPicture(m_splitter->grab()); });
+    connect(m_bar, &PlotBar::drawingRequested, m_saver, &PlotSaver::saveDrawing);
+    connect(m_bar, &PlotBar::csvRequested, this, [this] { m_saver->saveCsv(*m_present); });
+    connect(m_bar, &PlotBar::pictureRequested, m_saver, &PlotSaver::savePicture);
     connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
     connect(m_bar, &PlotBar::cursorsChanged, this, &PlotArea::setCursorsOn);
     connect(m_bar, &PlotBar::triggerChanged, this, &PlotArea::setTriggerOn);
-    connect(m_bar, &PlotBar::triggerSettingsRequested, this, &PlotArea::askForTrigger);
+    connect(m_bar, &PlotBar::triggerSettingsRequested, m_trigger, &AreaTrigger::ask);
+    connect(m_trigger, &AreaTrigger::chosen, this, &PlotArea::arm);
+    connect(m_trigger, &AreaTrigger::armedChanged, m_bar, &PlotBar::setTrigger);
+    connect(m_trigger, &AreaTrigger::liveRequested, this, [this] { setLive(true); });
+    connect(m_trigger, &AreaTrigger::stood, this, [this] {
+        m_bar->setLive(false);
+        refreshAll();
+    });
 }
 
 std::vector<QAction *> PlotArea::saveActions() const
@@ -143,29 +150,32 @@ void PlotArea::connectChart(PlotPanel *panel)
     });
     connect(chart, &PlotChart::pauseRequested, this, [this] { setLive(false); });
     connect(chart, &PlotChart::zoomed, this, [this, panel](double factor, LineTime around) {
-        standStill();
+        m_trigger->letGo();
         windowOf(panel).zoom(factor, around);
         showNewest();
     });
     connect(chart, &PlotChart::panned, this, [this, panel](LineTime by) {
-        standStill();
+        m_trigger->letGo();
         windowOf(panel).pan(by);
         showNewest();
     });
     connect(chart, &PlotChart::timesChosen, this, [this, panel](LineTime from, LineTime to) {
-        standStill();
+        m_trigger->letGo();
         windowOf(panel).show(from, to);
         showNewest();
     });
     connect(chart, &PlotChart::cursorMoved, this, &PlotArea::moveCursor);
     connect(chart, &PlotChart::cursorsToggled, this, [this] { setCursorsOn(!m_cursors.isOn); });
     connect(chart, &PlotChart::triggerLevelChosen, this, [this](double level) {
-        TriggerChoice choice = m_trigger->choice();
+        TriggerChoice choice = trigger().choice();
         choice.level = level;
         arm(choice);
     });
     connect(chart, &PlotChart::autoscaleChanged, this, &PlotArea::showAutoscale);
-    connect(chart, &PlotChart::fitRequested, this, &PlotArea::fit);
+    connect(chart, &PlotChart::fitRequested, this, [this] {
+        setLive(true);
+        setAutoscale(true);
+    });
 }
 
 void PlotArea::closePanel(PlotPanel *panel)
@@ -281,7 +291,7 @@ void PlotArea::hideEvent(QHideEvent *event)
 void PlotArea::onFrame()
 {
     derive();
-    lookAtTrigger();
+    m_trigger->look(newest());
     measure();
     if (!m_window.isLive())
         return;
@@ -336,12 +346,6 @@ void PlotArea::setUnits(const UnitPreferences &units)
         panel->model().setUnits(units);
     setAutoscale(true); // ranges by hand were of the other units
     refreshAll();
-}
-
-void PlotArea::fit()
-{
-    setLive(true);
-    setAutoscale(true);
 }
 
 void PlotArea::clear()

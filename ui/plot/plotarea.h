@@ -5,10 +5,8 @@
 #include "core/table/units.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
+#include "ui/plot/areatrigger.h"
 #include "ui/plot/plotcursors.h"
-#include "ui/plot/plotstate.h"
-#include "ui/plot/plottrigger.h"
-#include "ui/plot/timewindow.h"
 #include "ui/plot/tracecolors.h"
 
 #include <QTimer>
@@ -52,7 +50,7 @@ public:
     void setRecording(LineTime begin, LineTime end); ///< where paused time axes have their 0 s, and how far they go
     void setAutoscale(bool on);
     void setCursorsOn(bool on);
-    PlotTrigger &trigger() const { return *m_trigger; }
+    PlotTrigger &trigger() const { return m_trigger->trigger(); }
     void arm(const TriggerChoice &choice);
     void setTriggerOn(bool on);
     EventLog &events() const { return *m_events; }
@@ -80,11 +78,6 @@ private:
     void connectBar();
     void connectChart(PlotPanel *panel);
     TimeWindow &windowOf(PlotPanel *panel);
-    void standStill(); ///< what the trigger shows was moved or zoomed: it stays
-    PlotPanel *triggeringPanel() const;
-    void askForTrigger();
-    void lookAtTrigger();
-    void showTrigger();
     LineTime newest() const;
     LineTime last() const;
     void addTo(PlotPanel *panel, const TraceKey &key);
@@ -100,12 +93,9 @@ private:
     void moveCursor(int which, LineTime at);
     void measure();
     void clear();
-    void fit();
-    void saveCsvFile();
     void restoreTraces();
     void restore(const PlotState &state);
     void askForLayoutName();
-    void saveSvg();
 
     Session &m_session;
     Monitor &m_monitor;
@@ -113,8 +103,7 @@ private:
     UnitPreferences m_units;
     TraceColors m_colors;
     EventLog *m_events;
-    PlotTrigger *m_trigger;
-    bool m_isHeld = false; ///< the view stands where the trigger put it
+    AreaTrigger *m_trigger;
     PlotBar *m_bar;
     QSplitter *m_splitter;
     PlotSaver *m_saver;
@@ -125,7 +114,6 @@ private:
     QTimer m_values; ///< for the numbers in the lists: no faster than can be read
     std::uint64_t m_samplesSeen = 0;
     LineTime m_recordingEnd{};
-    std::optional<PlotState::Trace> m_waitingTrigger;
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
 };
 

@@ -53,10 +53,7 @@ PlotState PlotArea::state() const
         state.looks.push_back(std::move(look));
     }
     state.colors = m_colors.remembered();
-    const TriggerChoice &choice = m_trigger->choice();
-    state.trigger = {PlotState::Trace::of(choice.trace, m_session), choice.level, choice.hysteresis, choice.settings};
-    if (!state.trigger.trace)
-        state.trigger.trace = m_waitingTrigger;
+    state.trigger = m_trigger->state(m_session);
     return state;
 }
 
@@ -83,8 +80,7 @@ void PlotArea::restore(const PlotState &state)
     }
     m_bar->setAutoscale(state.autoscale);
     m_waiting = state.panels;
-    m_trigger->choose({{}, state.trigger.level, state.trigger.hysteresis, state.trigger.settings});
-    m_waitingTrigger = state.trigger.trace;
+    m_trigger->restore(state.trigger);
     restoreTraces();
 }
 
@@ -149,14 +145,7 @@ void PlotArea::askForLayoutName()
 void PlotArea::restoreTraces()
 {
     const std::vector<Device *> devices = m_session.devices();
-    if (m_waitingTrigger) {
-        if (const std::optional<TraceKey> key = m_waitingTrigger->find(devices)) {
-            TriggerChoice choice = m_trigger->choice();
-            choice.trace = *key;
-            m_trigger->choose(choice);
-            m_waitingTrigger.reset();
-        }
-    }
+    m_trigger->findTrace(devices);
     for (std::size_t i = 0; i < std::min(m_waiting.size(), m_panels.size()); ++i) {
         std::erase_if(m_waiting[i], [this, i, &devices](const PlotState::Trace &trace) {
             const std::optional<TraceKey> key = trace.find(devices);

@@ -2,12 +2,10 @@
 // Which time is shown: live, paused, or where the trigger puts it.
 #include "ui/plot/plotarea.h"
 
-#include "ui/common/present.h"
 #include "ui/plot/plotbar.h"
 #include "ui/plot/plotchart.h"
 #include "ui/plot/plotpanel.h"
 #include "ui/plot/tracemodel.h"
-#include "ui/plot/triggerdialog.h"
 
 #include <algorithm>
 
@@ -15,7 +13,7 @@ namespace dynascope {
 
 namespace {
 
-constexpr std::size_t LookedAtAFrame = 100'000; ///< samples, about a millisecond
+constexpr std::size_t DerivedAFrame = 100'000; ///< samples, about a millisecond
 
 } // namespace
 
@@ -73,7 +71,7 @@ TimeWindow &PlotArea::windowOf(PlotPanel *panel)
 
 void PlotArea::setLive(bool live)
 {
-    m_isHeld = false;
+    m_trigger->letGo();
     if (live) {
         m_window.setLive();
         for (PlotPanel *panel : m_panels)
@@ -94,7 +92,7 @@ void PlotArea::setLive(bool live)
 /// A bounded part with each frame, also while paused: what is added then is made for what is seen.
 void PlotArea::derive()
 {
-    std::size_t budget = LookedAtAFrame;
+    std::size_t budget = DerivedAFrame;
     for (PlotPanel *panel : m_panels) {
         const std::optional<LineTime> first = panel->model().derive(budget);
         if (first && !m_window.isLive() && *first <= windowOf(panel).pausedAt())
@@ -102,103 +100,14 @@ void PlotArea::derive()
     }
 }
 
-PlotPanel *PlotArea::triggeringPanel() const
-{
-    const auto at = std::ranges::find_if(m_panels, [this](const PlotPanel *panel) {
-        return panel->model().indexOf(m_trigger->choice().trace) >= 0;
-    });
-    return at == m_panels.end() ? nullptr : *at;
-}
-
-void PlotArea::askForTrigger()
-{
-    const QString name = QStringLiteral("triggerDialog");
-    if (raiseOpen(*window(), name))
-        return;
-    std::vector<TriggerDialog::Source> sources;
-    for (const PlotPanel *panel : m_panels) {
-        const TraceModel &model = panel->model();
-        for (int row = 0; row < model.rowCount(); ++row) {
-            const TraceModel::Linear scale = model.scaleOf(row);
-            const History *history = model.history(row);
-            const auto newest = history ? m_monitor.newest(*history) : std::nullopt;
-            const double raw = newest ? newest->raw : 0;
-            sources.push_back({model.key(row), model.index(row).data().toString(), scale.unit, scale.decimals,
-                raw * scale.scale + scale.offset});
-        }
-    }
-    auto *dialog = new TriggerDialog(m_trigger->choice(), std::move(sources), this);
-    connect(dialog, &TriggerDialog::chosen, this, &PlotArea::arm);
-    present(*dialog);
-}
-
 void PlotArea::arm(const TriggerChoice &choice)
 {
-    m_trigger->choose(choice);
-    setTriggerOn(true);
+    m_trigger->arm(choice, newest());
 }
 
 void PlotArea::setTriggerOn(bool on)
 {
-    const bool isEvent = m_trigger->choice().settings.kind == TriggerSettings::Kind::Event;
-    if (on && !isEvent && !triggeringPanel()) {
-        m_bar->setTrigger(false); // until somebody has said by what
-        return askForTrigger();
-    }
     m_trigger->setOn(on, newest());
-    if (on || m_isHeld)
-        setLive(true);
-    showTrigger();
-}
-
-void PlotArea::standStill()
-{
-    m_isHeld = false;
-}
-
-/// What a person paused isn't moved by it.
-void PlotArea::lookAtTrigger()
-{
-    if (!m_trigger->isOn() || (!m_window.isLive() && !m_isHeld))
-        return;
-    const PlotPanel *panel = triggeringPanel();
-    const TraceModel *model = panel ? &panel->model() : nullptr;
-    const History *history = model ? model->history(model->indexOf(m_trigger->choice().trace)) : nullptr;
-    std::size_t budget = LookedAtAFrame;
-    const LineTime now = newest();
-    if (m_trigger->advance(model, history, now, budget)) {
-        if (const std::optional<LineTime> at = m_trigger->shown()) {
-            const TriggerSettings &settings = m_trigger->choice().settings;
-            m_window.hold(*at, settings.before, settings.after, now);
-            for (PlotPanel *each : m_panels) {
-                each->ownTime().hold(*at, settings.before, settings.after, now);
-                each->setLive(false);
-            }
-            m_isHeld = true;
-            m_bar->setLive(false);
-            refreshAll();
-        } else {
-            setLive(true);
-        }
-    }
-    showTrigger();
-}
-
-/// The level where its trace is; the words there, too, or in the first panel.
-void PlotArea::showTrigger()
-{
-    m_bar->setTrigger(m_trigger->isOn() && !m_trigger->isDone());
-    const PlotPanel *of = triggeringPanel();
-    TriggerMark mark = m_trigger->mark(of ? &of->model() : nullptr);
-    mark.isShown = mark.isShown && m_isHeld;
-    for (PlotPanel *panel : m_panels) {
-        TriggerMark its = mark;
-        if (panel != (of ? of : m_panels.front())) {
-            its.hasLevel = false;
-            its.text.clear();
-        }
-        panel->chart().setTrigger(its);
-    }
 }
 
 } // namespace dynascope

@@ -4,10 +4,9 @@
 #include "ui/common/icons.h"
 #include "ui/common/theme.h"
 #include "ui/plot/plotreadout.h"
+#include "ui/plot/tracepaths.h"
 
-#include <QEvent>
 #include <QPainter>
-#include <QPainterPath>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +20,32 @@ constexpr int StepHeight = 44; ///< pixels between value labels, at least
 double seconds(LineTime time)
 {
     return std::chrono::duration<double>(time).count();
+}
+
+/// Where a replay stands, in what it has not come to yet and what it has behind it.
+void paintPlayhead(QPainter &painter, LineTime at, const TimeView &view, const QRectF &area, const QPalette &palette)
+{
+    const qreal x = std::round(area.left() + view.column(at) / view.columns * area.width());
+    if (x < area.left() || x > area.right())
+        return;
+    constexpr qreal Head = 5;
+    const QColor color = colors(palette).accent;
+    painter.setPen(QPen(color, 1));
+    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
+    painter.setBrush(color);
+    painter.drawPolygon(QPolygonF{{QPointF(x - Head, area.bottom()), QPointF(x + Head, area.bottom()), QPointF(x, area.bottom() - Head)}});
+    painter.setBrush(Qt::NoBrush);
+}
+
+void paintBox(QPainter &painter, const QRectF &box, const QPalette &palette)
+{
+    const QColor line = colors(palette).accent;
+    QColor fill = line;
+    fill.setAlphaF(0.12F);
+    painter.setPen(QPen(line, 1));
+    painter.setBrush(fill);
+    painter.drawRect(box);
+    painter.setBrush(Qt::NoBrush);
 }
 
 } // namespace
@@ -190,74 +215,6 @@ void PlotChart::paintEmpty(QPainter &painter, const QRectF &area)
         paintIcon(&painter, icon, QStringLiteral("chart"), color);
 }
 
-/// From the lowest to the highest value of each column, and on to the next: no more than what is seen, however many
-/// samples there are.
-void PlotChart::paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const
-{
-    painter.save();
-    painter.setClipRect(area);
-    painter.setBrush(Qt::NoBrush);
-    std::vector<History::Column> columns(static_cast<std::size_t>(view.columns));
-    for (auto trace = m_traces.rbegin(); trace != m_traces.rend(); ++trace) {
-        if (!trace->isDrawn())
-            continue;
-        trace->history->columns(view.from(), view.to(), columns);
-        const AxisRange &range = m_scales.range(trace->unit);
-        const auto y = [&](std::int32_t raw) {
-            return area.bottom() - (trace->value(raw) - range.minimum) / range.span() * area.height();
-        };
-        QPainterPath path;
-        for (std::size_t i = 0; i < columns.size() && view.step * (view.firstColumn + static_cast<std::int64_t>(i)) <= view.until; ++i) {
-            const History::Column &column = columns[i];
-            if (column.isEmpty)
-                continue;
-            const qreal x = area.left() + (static_cast<double>(i) + 0.5) / view.columns * area.width();
-            if (path.isEmpty() || column.gapBefore)
-                path.moveTo(x, y(column.first));
-            else
-                path.lineTo(x, y(column.first));
-            if (column.minimum != column.maximum) {
-                path.lineTo(x, y(column.minimum));
-                path.lineTo(x, y(column.maximum));
-                path.lineTo(x, y(column.last));
-            }
-        }
-        QPen pen(trace->color, 1.5, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
-        static constexpr std::array Styles{Qt::SolidLine, Qt::DashLine, Qt::DotLine, Qt::DashDotLine};
-        pen.setStyle(Styles[static_cast<std::size_t>(std::clamp(trace->dash, 0, 3))]);
-        painter.setPen(pen);
-        painter.setOpacity(trace->dimmed ? 0.35 : 1);
-        painter.drawPath(path);
-    }
-    painter.restore();
-}
-
-/// Where a replay stands, in what it has not come to yet and what it has behind it.
-void PlotChart::paintPlayhead(QPainter &painter, const TimeView &view, const QRectF &area) const
-{
-    const qreal x = std::round(area.left() + view.column(*m_playhead) / view.columns * area.width());
-    if (x < area.left() || x > area.right())
-        return;
-    constexpr qreal Head = 5;
-    const QColor color = colors(palette()).accent;
-    painter.setPen(QPen(color, 1));
-    painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
-    painter.setBrush(color);
-    painter.drawPolygon(QPolygonF{{QPointF(x - Head, area.bottom()), QPointF(x + Head, area.bottom()), QPointF(x, area.bottom() - Head)}});
-    painter.setBrush(Qt::NoBrush);
-}
-
-void PlotChart::paintBox(QPainter &painter, const QRectF &area) const
-{
-    const QColor line = colors(palette()).accent;
-    QColor fill = line;
-    fill.setAlphaF(0.12F);
-    painter.setPen(QPen(line, 1));
-    painter.setBrush(fill);
-    painter.drawRect(QRectF(m_dragFrom, m_dragLast).normalized().intersected(area));
-    painter.setBrush(Qt::NoBrush);
-}
-
 void PlotChart::paintEvent(QPaintEvent *)
 {
     const QRectF area = plotArea();
@@ -273,15 +230,15 @@ void PlotChart::paintEvent(QPaintEvent *)
         painter.setPen(colors(palette()).dimmed);
         paintEmpty(painter, area);
     } else {
-        m_isVector ? paintPaths(painter, now, area) : paintTraces(painter, now, area);
+        m_isVector ? paintPaths(painter, m_traces, m_scales, now, area) : paintTraces(painter, now, area);
     }
     m_marks.paint(painter, now, area, palette());
     m_trigger.paint(painter, now, area, palette(), m_trigger.hasLevel ? &m_scales.range(m_trigger.unit) : nullptr);
     if (m_playhead && !m_window->isLive())
-        paintPlayhead(painter, now, area);
+        paintPlayhead(painter, *m_playhead, now, area, palette());
     m_cursors.paint(painter, now, area, palette());
     if (m_drag == Drag::Box)
-        paintBox(painter, area);
+        paintBox(painter, QRectF(m_dragFrom, m_dragLast).normalized().intersected(area), palette());
     if (m_mouse && m_drag == Drag::None && area.contains(*m_mouse))
         PlotReadout{m_traces, m_scales, now, area, m_mouse->x(), palette()}.paint(painter);
     if (m_marked || m_showFocus) {
@@ -289,13 +246,6 @@ void PlotChart::paintEvent(QPaintEvent *)
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(area);
     }
-}
-
-void PlotChart::changeEvent(QEvent *event)
-{
-    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
-        update();
-    QWidget::changeEvent(event);
 }
 
 } // namespace dynascope

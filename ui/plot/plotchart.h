@@ -74,7 +74,6 @@ protected:
     void focusInEvent(QFocusEvent *event) override;
     void focusOutEvent(QFocusEvent *event) override;
     void leaveEvent(QEvent *event) override;
-    void changeEvent(QEvent *event) override;
 
 private:
     enum class Drag { None, Pan, Box, Cursor, Level, Times, Values };
@@ -83,11 +82,7 @@ private:
     ChartFrame::Content frameContent(const TimeView &view) const;
     void paintEmpty(QPainter &painter, const QRectF &area);
     void paintTraces(QPainter &painter, const TimeView &view, const QRectF &area);
-    void paintBox(QPainter &painter, const QRectF &area) const;
-    void paintPaths(QPainter &painter, const TimeView &view, const QRectF &area) const;
-    void paintPlayhead(QPainter &painter, const TimeView &view, const QRectF &area) const;
     int axisAt(const QPointF &at) const; ///< whose labels are there; −1: none's
-    std::vector<PlotScales::Scale *> scalesOf(int axis); ///< −1: all
     void zoomValues(int steps, qreal y, int axis = -1);
     void moveValues(qreal pixels, int axis = -1);
     void zoomTime(int steps, qreal x); ///< positive: closer

@@ -55,21 +55,11 @@ int PlotChart::axisAt(const QPointF &at) const
     return m_scales.labelled(axis) ? axis : -1;
 }
 
-std::vector<PlotScales::Scale *> PlotChart::scalesOf(int axis)
-{
-    std::vector<PlotScales::Scale *> chosen;
-    for (PlotScales::Scale &scale : m_scales.scales()) {
-        if (axis < 0 || &scale == m_scales.labelled(axis))
-            chosen.push_back(&scale);
-    }
-    return chosen;
-}
-
 void PlotChart::zoomValues(int steps, qreal y, int axis)
 {
     const double factor = std::pow(WheelZoom, -steps);
     const QRectF area = plotArea();
-    for (PlotScales::Scale *scale : scalesOf(axis)) {
+    for (PlotScales::Scale *scale : m_scales.of(axis)) {
         const AxisRange &range = scale->scaler.range();
         scale->isByHand = true;
         scale->scaler.zoom(factor, range.minimum + (area.bottom() - y) / area.height() * range.span());
@@ -80,7 +70,7 @@ void PlotChart::zoomValues(int steps, qreal y, int axis)
 
 void PlotChart::moveValues(qreal pixels, int axis)
 {
-    for (PlotScales::Scale *scale : scalesOf(axis)) {
+    for (PlotScales::Scale *scale : m_scales.of(axis)) {
         if (scale->isByHand) // what follows the data stays there
             scale->scaler.move(pixels / plotArea().height() * scale->scaler.range().span());
     }
@@ -101,7 +91,7 @@ void PlotChart::zoomToBox(const QRectF &box)
     const QRectF area = plotArea();
     const LineTime from = timeAt(box.left());
     const LineTime to = timeAt(box.right());
-    for (PlotScales::Scale *scale : scalesOf(-1)) {
+    for (PlotScales::Scale *scale : m_scales.of(-1)) {
         const AxisRange range = scale->scaler.range();
         const auto valueAt
             = [&](qreal y) { return range.minimum + (area.bottom() - y) / area.height() * range.span(); };
@@ -122,6 +112,8 @@ void PlotChart::beginDrag(Drag drag, const QPointF &at)
 
 bool PlotChart::event(QEvent *event)
 {
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange)
+        update();
     if (event->type() != QEvent::ToolTip)
         return QWidget::event(event);
     const auto *help = static_cast<QHelpEvent *>(event);
@@ -185,7 +177,7 @@ void PlotChart::dragTo(const QPointF &at)
         break;
     }
     case Drag::Values: { // up: closer, around the middle
-        for (PlotScales::Scale *scale : scalesOf(m_dragged)) {
+        for (PlotScales::Scale *scale : m_scales.of(m_dragged)) {
             const AxisRange &range = scale->scaler.range();
             scale->isByHand = true;
             scale->scaler.zoom(std::exp(moved.y() / DragZoom), range.minimum + range.span() / 2);
@@ -256,7 +248,7 @@ void PlotChart::showDragShape(const QPointF &at, Qt::KeyboardModifiers modifiers
 void PlotChart::mouseDoubleClickEvent(QMouseEvent *event)
 {
     const int axis = axisAt(event->position());
-    for (PlotScales::Scale *scale : scalesOf(axis)) {
+    for (PlotScales::Scale *scale : m_scales.of(axis)) {
         scale->isByHand = false;
         scale->scaler.refit();
     }

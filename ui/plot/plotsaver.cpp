@@ -2,9 +2,16 @@
 #include "ui/plot/plotsaver.h"
 
 #include "ui/common/filedialogs.h"
+#include "ui/plot/plotchart.h"
+#include "ui/plot/plotpanel.h"
+#include "ui/plot/tracemodel.h"
 
+#include <QBuffer>
 #include <QDir>
+#include <QPainter>
 #include <QPointer>
+#include <QSplitter>
+#include <QSvgGenerator>
 
 namespace dynascope {
 
@@ -17,8 +24,11 @@ const QString Topic = QStringLiteral("save");
 
 } // namespace
 
-PlotSaver::PlotSaver(const Monitor &monitor, QWidget *window)
+PlotSaver::PlotSaver(
+    const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget *window)
     : QObject(window)
+    , m_panels(panels)
+    , m_splitter(splitter)
     , m_window(window)
     , m_csv(monitor)
 {
@@ -36,34 +46,61 @@ void PlotSaver::ask(const QString &title, const QString &suffix, std::function<v
     askWhereToSave(m_window, title, suffix, suggestedFileName(suffix), std::move(save));
 }
 
-void PlotSaver::askForCsv(std::function<std::vector<CsvSave::Trace>()> traces, LineTime from, LineTime end)
+std::vector<CsvSave::Trace> PlotSaver::traces() const
+{
+    std::vector<CsvSave::Trace> all;
+    for (const PlotPanel *panel : m_panels) {
+        const std::vector<TraceData> drawn = panel->model().drawn(panel->palette());
+        for (std::size_t row = 0; row < drawn.size(); ++row)
+            all.push_back({panel->model().watch(static_cast<int>(row)), drawn[row],
+                panel->model().derivedHistory(static_cast<int>(row))});
+    }
+    return all;
+}
+
+void PlotSaver::saveCsv(const PlotPanel &timed)
 {
     if (m_csv.isRunning())
         return sayItLasts();
-    ask(tr("Save the samples in sight"), QStringLiteral("csv"),
-        [this, traces = std::move(traces), from, end](const QString &path) {
-            if (m_csv.isRunning())
-                return sayItLasts();
-            m_csv.start(path, traces(), from, end);
-            m_patience.start();
-        });
+    const TimeView view = timed.chart().view();
+    ask(tr("Save the samples in sight"), QStringLiteral("csv"), [this, from = view.from(), end = view.to()](const QString &path) {
+        if (m_csv.isRunning())
+            return sayItLasts();
+        m_csv.start(path, traces(), from, end);
+        m_patience.start();
+    });
 }
 
-void PlotSaver::askForPicture(const QPixmap &picture)
+void PlotSaver::savePicture()
 {
-    ask(tr("Save the plots as a picture"), QStringLiteral("png"),
-        [this, picture](const QString &path) {
-        if (const Result<void> result = savePicture(path, picture))
+    ask(tr("Save the plots as a picture"), QStringLiteral("png"), [this, picture = m_splitter.grab()](const QString &path) {
+        if (const Result<void> result = dynascope::savePicture(path, picture))
             sayWritten(path);
         else
             sayFailed(result.error());
     });
 }
 
-void PlotSaver::askForDrawing(const QByteArray &svg)
+void PlotSaver::saveDrawing()
 {
-    ask(tr("Save the plots as a drawing"), QStringLiteral("svg"), [this, svg](const QString &path) {
-        if (const Result<void> result = saveBytes(path, svg))
+    QByteArray drawing;
+    QBuffer buffer(&drawing);
+    QSvgGenerator generator;
+    generator.setOutputDevice(&buffer);
+    generator.setSize(m_splitter.size());
+    generator.setViewBox(m_splitter.rect());
+    generator.setResolution(96);
+    generator.setTitle(tr("Dynascope plots"));
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setVector(true);
+    {
+        QPainter painter(&generator);
+        m_splitter.render(&painter);
+    }
+    for (PlotPanel *panel : m_panels)
+        panel->chart().setVector(false);
+    ask(tr("Save the plots as a drawing"), QStringLiteral("svg"), [this, drawing](const QString &path) {
+        if (const Result<void> result = saveBytes(path, drawing))
             sayWritten(path);
         else
             sayFailed(result.error());

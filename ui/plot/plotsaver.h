@@ -4,32 +4,38 @@
 #include "ui/common/messagebar.h"
 #include "ui/plot/csvsave.h"
 
-#include <QPixmap>
+class QSplitter;
 
 namespace dynascope {
 
-/// Asks where plots shall be saved, has them saved, and says what became of it.
+class PlotPanel;
+
+/// Asks where what the panels show shall be saved, has it saved, and says what became of it. What is saved is as it was
+/// when asked: a live plot moves on while the person chooses a name.
 class PlotSaver : public QObject
 {
     Q_OBJECT
 
 public:
-    PlotSaver(const Monitor &monitor, QWidget *window);
+    /// `splitter` has the panels in it. All outlive this.
+    PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget *window);
 
-    /// `traces` is asked once the name is chosen. Refused while another is being written.
-    void askForCsv(std::function<std::vector<CsvSave::Trace>()> traces, LineTime from, LineTime end);
-    void askForPicture(const QPixmap &picture);
-    void askForDrawing(const QByteArray &svg);
+    void saveCsv(const PlotPanel &timed); ///< all samples in its view, of all panels. Refused while another is written
+    void savePicture();
+    void saveDrawing();
 
 signals:
     void posted(const dynascope::Message &message);
 
 private:
+    std::vector<CsvSave::Trace> traces() const;
     void ask(const QString &title, const QString &suffix, std::function<void(const QString &)> save);
     void sayWritten(const QString &path);
     void sayFailed(const Error &error);
     void sayItLasts();
 
+    const std::vector<PlotPanel *> &m_panels;
+    QSplitter &m_splitter;
     QWidget *m_window;
     CsvSave m_csv;
     QTimer m_patience; ///< what is done at once needs no word before

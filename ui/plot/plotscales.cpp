@@ -107,6 +107,17 @@ const AxisRange &PlotScales::range(const QString &unit) const
     return at == m_scales.end() ? none : at->scaler.range();
 }
 
+std::vector<PlotScales::Scale *> PlotScales::of(int side)
+{
+    std::vector<Scale *> chosen;
+    const Scale *one = labelled(side);
+    for (Scale &scale : m_scales) {
+        if (side < 0 || &scale == one)
+            chosen.push_back(&scale);
+    }
+    return chosen;
+}
+
 const PlotScales::Scale *PlotScales::labelled(int side) const
 {
     for (const Scale &scale : m_scales) {

@@ -32,7 +32,7 @@ public:
     const AxisRange &range(const QString &unit) const;
     /// 0 left, from 1 on right; none where so many units are not in sight.
     const Scale *labelled(int side) const;
-    std::vector<Scale> &scales() { return m_scales; }
+    std::vector<Scale *> of(int side); ///< labelled() there, or all: −1
     const std::vector<Scale> &scales() const { return m_scales; }
 
 private:

@@ -1,4 +1,5 @@
 target_sources(dynascope_ui PRIVATE
+    plot/areatrigger.cpp plot/areatrigger.h
     plot/axisscaler.cpp plot/axisscaler.h
     plot/chartframe.cpp plot/chartframe.h
     plot/columncache.cpp plot/columncache.h
@@ -8,7 +9,6 @@ target_sources(dynascope_ui PRIVATE
     plot/measuretable.cpp plot/measuretable.h
     plot/plotarea.cpp plot/plotarea.h
     plot/plotarea_cursors.cpp
-    plot/plotarea_save.cpp
     plot/plotarea_state.cpp
     plot/plotarea_times.cpp
     plot/plotbar.cpp plot/plotbar.h
@@ -33,6 +33,7 @@ target_sources(dynascope_ui PRIVATE
     plot/tracelist.cpp plot/tracelist.h
     plot/tracemodel.cpp plot/tracemodel.h
     plot/tracemodel_derived.cpp
+    plot/tracepaths.cpp plot/tracepaths.h
     plot/triggerdialog.cpp plot/triggerdialog.h
     plot/triggermark.cpp plot/triggermark.h
     plot/deriveddialog.cpp plot/deriveddialog.h
