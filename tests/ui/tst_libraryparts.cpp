@@ -81,12 +81,12 @@ private slots:
     /// The whole library is read for a search without the window standing still.
     void readingDoesNotBlock()
     {
-        LibraryReader reader(m_catalog);
+        LibraryReader reader(m_catalog, nullptr, std::chrono::milliseconds(0)); // as on a machine that is slow
         const QSignalSpy turns(&reader, &LibraryReader::progressed);
         reader.start();
         QTRY_VERIFY(reader.isDone());
         QCOMPARE(reader.done(), int(m_catalog.models().size()));
-        QVERIFY(turns.count() > 1);
+        QCOMPARE(turns.count(), reader.total());
         QVERIFY(!reader.index().find(u"Goal Current"_s).empty());
     }
 };

@@ -4,14 +4,9 @@
 #include <QElapsedTimer>
 
 namespace dynascope {
-namespace {
 
-constexpr qint64 TurnMs = 6; ///< of the GUI thread's time, then the window's own events have their turn
-
-} // namespace
-
-LibraryReader::LibraryReader(const Catalog &catalog, QObject *parent)
-    : QObject(parent), m_catalog(catalog), m_models(catalog.models())
+LibraryReader::LibraryReader(const Catalog &catalog, QObject *parent, std::chrono::milliseconds turn)
+    : QObject(parent), m_catalog(catalog), m_turn(turn), m_models(catalog.models())
 {
     connect(&m_timer, &QTimer::timeout, this, &LibraryReader::readSome);
 }
@@ -26,13 +21,15 @@ void LibraryReader::readSome()
 {
     QElapsedTimer turn;
     turn.start();
-    while (!isDone() && turn.elapsed() < TurnMs) {
+    while (!isDone()) {
         const int number = m_models[m_next].modelNumber;
         for (const int firmware : m_catalog.firmwareSteps(number)) {
             if (const ControlTablePtr table = m_catalog.find(number, firmware))
                 m_index.add(*table);
         }
         ++m_next;
+        if (turn.elapsed() >= m_turn.count())
+            break;
     }
     if (isDone())
         m_timer.stop();

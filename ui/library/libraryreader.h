@@ -7,6 +7,8 @@
 #include <QObject>
 #include <QTimer>
 
+#include <chrono>
+
 namespace dynascope {
 
 /// Reads every table of a catalog into an index, a few milliseconds at a time, so that the window goes on meanwhile.
@@ -16,7 +18,9 @@ class LibraryReader : public QObject
     Q_OBJECT
 
 public:
-    explicit LibraryReader(const Catalog &catalog, QObject *parent = nullptr); ///< the catalog outlives it
+    /// `turn`: how long at a time, at least one model. The catalog outlives it.
+    explicit LibraryReader(const Catalog &catalog, QObject *parent = nullptr,
+        std::chrono::milliseconds turn = std::chrono::milliseconds(6));
 
     void start(); ///< once; later calls do nothing
     bool isDone() const { return m_next == m_models.size(); }
@@ -31,6 +35,7 @@ private:
     void readSome();
 
     const Catalog &m_catalog;
+    const std::chrono::milliseconds m_turn;
     std::vector<Catalog::ModelInfo> m_models;
     std::size_t m_next = 0;
     RegisterIndex m_index;
