@@ -15,7 +15,6 @@
 #include "ui/record/recordwishes.h"
 
 #include <QAction>
-#include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTimer>
 
@@ -177,9 +176,11 @@ void atRest(bench::MeasuringApplication &application, const Catalog &catalog)
     scene.runFor(2000);
     constexpr int Seconds = 20;
     const double begin = scene.cpu(), ownBegin = bench::cpuMilliseconds();
+    const std::uint64_t samplesBegin = monitor.history(key.watch)->appended();
     scene.runFor(Seconds * 1000);
-    std::printf("at rest, one servo at 50 Hz, one trace, %d s: %.1f %% of a core, of which the GUI thread %.1f %%\n", Seconds,
-                (scene.cpu() - begin) / (Seconds * 10), (bench::cpuMilliseconds() - ownBegin) / (Seconds * 10));
+    std::printf("at rest, one servo at 50 Hz, one trace, %d s: %.1f samples/s; %.1f %% of a core, of which the GUI thread %.1f %%\n",
+                Seconds, static_cast<double>(monitor.history(key.watch)->appended() - samplesBegin) / Seconds, (scene.cpu() - begin) / (Seconds * 10),
+                (bench::cpuMilliseconds() - ownBegin) / (Seconds * 10));
 }
 
 /// Two panels with three fields each of all devices, grid of one, dashboard, recording: all while nothing is polled yet.
@@ -274,7 +275,7 @@ void atWork(bench::MeasuringApplication &application, const Catalog &catalog, in
 
 int main(int argc, char **argv)
 {
-    QStandardPaths::setTestModeEnabled(true);
+    const bench::OwnSettings settings;
     bench::MeasuringApplication application(argc, argv);
     QApplication::setQuitOnLastWindowClosed(false);
     setUpApplication(application);

@@ -9,7 +9,6 @@
 
 #include <QApplication>
 #include <QElapsedTimer>
-#include <QStandardPaths>
 #include <QTimer>
 #include <QTreeView>
 
@@ -76,7 +75,7 @@ int main(int argc, char **argv)
 {
     QElapsedTimer sinceStart;
     sinceStart.start();
-    QStandardPaths::setTestModeEnabled(true);
+    const bench::OwnSettings settings;
     WatchingApplication application(argc, argv);
     setUpApplication(application);
     const auto catalog = Catalog::builtIn();

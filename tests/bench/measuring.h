@@ -6,12 +6,28 @@
 #include <QElapsedTimer>
 #include <QFile>
 #include <QMetaObject>
+#include <QTemporaryDir>
 
 #include <algorithm>
 #include <ctime>
 
 /// What the benchmarks of the window measure by.
 namespace dynascope::bench {
+
+/// Where the program keeps what it remembers, while this lives: an empty place, or what another benchmark left would be
+/// measured, too. To be made before anything reads settings.
+class OwnSettings
+{
+public:
+    OwnSettings()
+    {
+        for (const char *place : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME"})
+            qputenv(place, QFile::encodeName(m_folder.path()));
+    }
+
+private:
+    QTemporaryDir m_folder;
+};
 
 /// CPU time so far, ms: CLOCK_THREAD_CPUTIME_ID of the calling thread, CLOCK_PROCESS_CPUTIME_ID of all.
 inline double cpuMilliseconds(clockid_t clock = CLOCK_THREAD_CPUTIME_ID)
