@@ -18,6 +18,10 @@ if(DYNASCOPE_SANITIZE)
     target_compile_options(dynascope_flags INTERFACE -fsanitize=${DYNASCOPE_SANITIZE} -fno-omit-frame-pointer
         -fno-sanitize-recover=all)
     target_link_options(dynascope_flags INTERFACE -fsanitize=${DYNASCOPE_SANITIZE})
+    find_program(DYNASCOPE_LLD ld.lld)
+    if(DYNASCOPE_LLD AND CMAKE_CXX_COMPILER_ID MATCHES Clang) # a hundred programs, seconds each with GNU's
+        target_link_options(dynascope_flags INTERFACE -fuse-ld=lld)
+    endif()
 endif()
 if(DYNASCOPE_FUZZ)
     target_compile_options(dynascope_flags INTERFACE -fsanitize=fuzzer-no-link) # what libFuzzer is guided by
