@@ -2,6 +2,7 @@
 #include "app/window/pictures.h"
 
 #include "app/window/dialogpictures.h"
+#include "app/window/plotpictures.h"
 #include "app/window/replaypicture.h"
 #include "app/window/workshop.h"
 #include "ui/devices/devicepanel.h"
@@ -38,11 +39,13 @@ public:
         : m_workshop(workshop)
         , m_dialogs(workshop)
         , m_replay(workshop)
+        , m_plots(workshop)
+        , m_directory(QDir(options.pictureDirectory).absolutePath()) // the current one is left for another
     {
         if (options.pictureDirectory.isEmpty())
             planOne(options.picture);
         else
-            planAll(QDir(QDir(options.pictureDirectory).absolutePath())); // the current one is left for another
+            planAll();
         connect(&m_timer, &QTimer::timeout, this, &PictureTaker::waitForDevices);
         m_elapsed.start();
         m_timer.start(100ms);
@@ -91,44 +94,63 @@ private:
         m_steps.push_back({[this, file] { save(file); }});
     }
 
-    void planAll(const QDir &directory)
+    void shoot(ColorScheme scheme, QSize size, const QString &name)
     {
+        m_steps.push_back({[this, scheme, size] {
+            m_workshop.applyScheme(scheme);
+            if (size.isValid())
+                shown().resize(size);
+        }});
         const QString scale = qApp->devicePixelRatio() > 1 ? QStringLiteral("@2x") : QString();
-        const auto shot = [this, directory, scale](ColorScheme scheme, QSize size, const QString &name) {
-            m_steps.push_back({[this, scheme, size] {
-                m_workshop.applyScheme(scheme);
-                if (size.isValid())
-                    shown().resize(size);
-            }});
-            m_steps.push_back(
-                {[this, file = directory.filePath(name + scale + QStringLiteral(".png"))] { save(file); }});
-        };
+        m_steps.push_back({[this, file = m_directory.filePath(name + scale + QStringLiteral(".png"))] { save(file); }});
+    }
+    /// In light and dark.
+    void shootBoth(QSize size, const char *name)
+    {
+        shoot(ColorScheme::Light, size, QLatin1String(name) + QStringLiteral("-light"));
+        shoot(ColorScheme::Dark, size, QLatin1String(name) + QStringLiteral("-dark"));
+    }
+
+    void planAll()
+    {
         const QSize large(1440, 900);
         const QSize small(960, 640);
-        shot(ColorScheme::Light, large, QStringLiteral("window-light"));
-        shot(ColorScheme::Dark, large, QStringLiteral("window-dark"));
-        shot(ColorScheme::Light, small, QStringLiteral("window-small-light"));
-        shot(ColorScheme::Dark, small, QStringLiteral("window-small-dark"));
+        shootBoth(large, "window");
+        shootBoth(small, "window-small");
         m_steps.push_back({[this] { m_replay.record(); }, PlotTime});
         m_steps.push_back({[this] { m_dialog = m_replay.open(); }, DialogTime});
-        shot(ColorScheme::Light, QSize(1360, 820), QStringLiteral("replay-light"));
-        shot(ColorScheme::Dark, QSize(1360, 820), QStringLiteral("replay-dark"));
+        shootBoth(QSize(1360, 820), "replay");
         m_steps.push_back({[this] { closeDialog(); }});
         for (const DialogPictures::One &one : m_dialogs.all()) {
             for (const auto &step : one.steps)
                 m_steps.push_back({[this, step] { m_dialog = step(); }, DialogTime});
-            shot(ColorScheme::Light, one.size, QLatin1String(one.name) + QStringLiteral("-light"));
-            shot(ColorScheme::Dark, one.size, QLatin1String(one.name) + QStringLiteral("-dark"));
+            shootBoth(one.size, one.name);
         }
         m_steps.push_back({[this] { closeDialog(); }});
-        m_steps.push_back({[this] { showBadCables(); }, PlotTime});
-        shot(ColorScheme::Light, large, QStringLiteral("health-light"));
-        shot(ColorScheme::Dark, large, QStringLiteral("health-dark"));
-        shot(ColorScheme::Dark, small, QStringLiteral("health-small-dark"));
+        m_steps.push_back({[this] { setCables(true); }, PlotTime});
+        shootBoth(large, "health");
+        shootBoth(small, "health-small");
         m_steps.push_back({[this] { openLibrary(); }});
         const QSize dialog(1160, 760);
-        shot(ColorScheme::Light, dialog, QStringLiteral("library-light"));
-        shot(ColorScheme::Dark, dialog, QStringLiteral("library-dark"));
+        shootBoth(dialog, "library");
+        m_steps.push_back({[this] { closeDialog(); }});
+        m_steps.push_back({[this] { setCables(false); }});
+        planPlots(large);
+    }
+
+    void planPlots(QSize large)
+    {
+        m_steps.push_back({[this] { m_plots.setUp(); }, PlotTime});
+        m_steps.push_back({[this] { m_plots.measure(); }});
+        m_steps.push_back({[this] { m_plots.addEvents(); }, DialogTime * 2});
+        shootBoth(large, "plots");
+        m_steps.push_back({[this] { m_dialog = m_plots.openTrigger(); }});
+        shootBoth({}, "trigger");
+        m_steps.push_back({[this] {
+            closeDialog();
+            m_dialog = m_plots.openDerived();
+        }});
+        shootBoth({}, "derived");
     }
 
     void closeDialog()
@@ -139,7 +161,7 @@ private:
     }
 
     /// Bus health with something to see in it: one cable that is bad, one that is poor.
-    void showBadCables()
+    void setCables(bool bad)
     {
         const auto fault = [](int id, sim::ReplyFault::Kind kind, double share) {
             sim::ReplyFault one;
@@ -153,13 +175,14 @@ private:
         };
         using Kind = sim::ReplyFault::Kind;
         sim::LineFaults faults;
-        faults.replies = {fault(3, Kind::Damaged, 0.03), fault(3, Kind::Lost, 0.004), fault(2, Kind::Cut, 0.003)};
+        if (bad)
+            faults.replies = {fault(3, Kind::Damaged, 0.03), fault(3, Kind::Lost, 0.004), fault(2, Kind::Cut, 0.003)};
         if (sim::Demo *demo = m_workshop.lines().demo())
             demo->server().post([faults](sim::SimulatedBus &bus, LineTime) { bus.setFaults(faults); });
         for (const auto &line : m_workshop.session().lines())
             line->health().startAnew();
         if (auto *action = m_workshop.window().findChild<QAction *>(QStringLiteral("busHealthAction")))
-            action->setChecked(true);
+            action->setChecked(bad);
     }
 
     /// The registers of a model, one of them looked at.
@@ -209,6 +232,8 @@ private:
     std::deque<Step> m_steps;
     DialogPictures m_dialogs;
     ReplayPicture m_replay;
+    PlotPictures m_plots;
+    QDir m_directory;
     QPointer<QWidget> m_dialog; ///< instead of the window
     bool m_failed = false;
 };
