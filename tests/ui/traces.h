@@ -15,7 +15,7 @@ inline TraceData traceOf(const History &history, const QString &unit = QStringLi
     trace.history = &history;
     trace.unit = unit;
     trace.color = QColor::fromRgb(Red);
-    trace.label = QStringLiteral("servo");
+    trace.field = QStringLiteral("servo");
     return trace;
 }
 

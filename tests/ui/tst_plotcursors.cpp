@@ -61,6 +61,32 @@ class TestPlotCursors : public QObject
     Q_OBJECT
 
 private slots:
+    /// Two panels in a column as narrow as that of the window: charts, not lists and figures.
+    void chartsKeepTheirHeight()
+    {
+        PlotBench bench;
+        bench.area.addPanel();
+        for (std::size_t panel = 0; panel < 2; ++panel) {
+            emit bench.area.panels()[panel]->activated();
+            for (const char *field : {"Present Position", "Goal Position", "Present Velocity", "Present PWM", "Present Current"})
+                bench.area.addTrace(bench.watch(panel == 0 ? bench.first : bench.second, field));
+        }
+        for (const int height : {640, 900}) {
+            bench.area.resize(350, height);
+            for (const bool on : {false, true}) {
+                bench.area.setCursorsOn(on);
+                QTRY_COMPARE(bench.area.panels()[0]->findChild<MeasureTable *>()->isVisible(), on);
+                QTest::qWait(0); // the layouts' turn
+                for (const PlotPanel *panel : bench.area.panels()) {
+                    const int least = std::max(96, std::min(panel->height() * 2 / 5, 300));
+                    QVERIFY2(panel->chart().height() >= least,
+                        qPrintable(QStringLiteral("%1 of %2").arg(panel->chart().height()).arg(panel->height())));
+                    QVERIFY(panel->findChild<TraceList *>()->height() >= 60);
+                }
+            }
+        }
+    }
+
     void cursorsMeasureWhatIsBetween()
     {
         RampBench bench;

@@ -22,7 +22,8 @@ MeasureModel::MeasureModel(QObject *parent) : QAbstractTableModel(parent) { }
 
 void MeasureModel::describe(Row &row, const TraceData &trace, const PlotCursors &cursors, LineTime zero) const
 {
-    row.label = trace.label;
+    // The field first: cut short in the middle it keeps the device's number, which stands last.
+    row.label = trace.device.isEmpty() ? trace.field : QStringLiteral("%1 · %2").arg(trace.field, trace.device);
     row.unit = trace.unit;
     row.color = trace.color;
     row.scale = trace.scale;

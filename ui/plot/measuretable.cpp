@@ -15,8 +15,8 @@ namespace dynascope {
 
 namespace {
 
-constexpr int MostRows = 5; ///< more are scrolled
-constexpr int Air = 16;     ///< beside the text of a cell
+constexpr int FewestRows = 2, MostRows = 5; ///< more are scrolled
+constexpr int Air = 16;                     ///< beside the text of a cell
 
 } // namespace
 
@@ -45,13 +45,24 @@ MeasureTable::MeasureTable(MeasureModel &model, QWidget *parent) : QTableView(pa
     fitColumns();
 }
 
+int MeasureTable::heightFor(int rows) const
+{
+    const int scrollBar = horizontalHeader()->length() > width() ? style()->pixelMetric(QStyle::PM_ScrollBarExtent) : 0;
+    return horizontalHeader()->sizeHint().height() + rows * verticalHeader()->defaultSectionSize() + 2 + scrollBar;
+}
+
 QSize MeasureTable::sizeHint() const
 {
-    const int rows = std::clamp(model()->rowCount(), 1, MostRows);
-    int height = horizontalHeader()->sizeHint().height() + rows * verticalHeader()->defaultSectionSize() + 2;
-    if (horizontalHeader()->length() > width())
-        height += style()->pixelMetric(QStyle::PM_ScrollBarExtent);
-    return {240, height};
+    return {240, heightFor(std::clamp(model()->rowCount(), 1, m_mostRows))};
+}
+
+void MeasureTable::setRoom(int height)
+{
+    const int rows = std::clamp((height - heightFor(0)) / verticalHeader()->defaultSectionSize(), FewestRows, MostRows);
+    if (rows == m_mostRows)
+        return;
+    m_mostRows = rows;
+    updateGeometry();
 }
 
 QSize MeasureTable::minimumSizeHint() const

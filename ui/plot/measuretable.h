@@ -16,6 +16,8 @@ class MeasureTable : public QTableView
 public:
     explicit MeasureTable(MeasureModel &model, QWidget *parent = nullptr);
 
+    void setRoom(int height); ///< takes no more of it than its rows need, and at least two rows
+
     QSize sizeHint() const override;
     QSize minimumSizeHint() const override;
 
@@ -27,6 +29,9 @@ protected:
 private:
     void fitColumns();
     void copySelected() const;
+    int heightFor(int rows) const;
+
+    int m_mostRows = 5; ///< more are scrolled
 };
 
 } // namespace dynascope

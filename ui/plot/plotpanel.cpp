@@ -20,6 +20,7 @@ namespace {
 
 constexpr int WideEnough = 620; ///< from here on the list stands beside the chart
 constexpr int ListWidth = 264;
+constexpr int ListHeight = 72;  ///< two traces; more are scrolled where the chart needs the room
 
 } // namespace
 
@@ -61,6 +62,7 @@ PlotPanel::PlotPanel(const Common &common, QWidget *parent)
             if (roles != QList<int>{TraceModel::ValueRole}) // the list's numbers; the chart has them from the history
                 refreshTraces();
         });
+    connect(m_figures, &MeasureModel::modelReset, this, &PlotPanel::shareHeight);
     m_chart->installEventFilter(this);
     m_list->installEventFilter(this);
     m_list->viewport()->installEventFilter(this);
@@ -141,6 +143,7 @@ void PlotPanel::setCursors(const PlotCursors &cursors)
     m_chart->setCursors(cursors);
     m_isMeasured = false;
     m_table->setVisible(cursors.isOn && m_model->rowCount() > 0);
+    shareHeight();
 }
 
 void PlotPanel::measure(const PlotCursors &cursors, std::size_t &budget)
@@ -167,6 +170,7 @@ void PlotPanel::updateList()
     m_list->updateGeometry();
     if (m_model->rowCount() == 0)
         m_table->hide();
+    shareHeight();
     refreshTraces();
 }
 
@@ -242,7 +246,17 @@ void PlotPanel::resizeEvent(QResizeEvent *event)
     m_layout->setDirection(isWide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
     m_list->setMinimumWidth(isWide ? ListWidth : 0);
     m_list->setMaximumWidth(isWide ? ListWidth : QWIDGETSIZE_MAX);
-    m_list->setMaximumHeight(isWide ? QWIDGETSIZE_MAX : std::max(88, height() * 2 / 5));
+    shareHeight();
+}
+
+/// The chart has the most of it, however many traces there are: what lists and tables don't show can be scrolled to.
+void PlotPanel::shareHeight()
+{
+    const bool isWide = width() >= WideEnough;
+    const int rest = height() - std::max(m_chart->minimumSizeHint().height(), height() * 45 / 100);
+    m_table->setRoom(isWide ? rest : rest - ListHeight);
+    const int table = m_table->isHidden() ? 0 : m_table->sizeHint().height();
+    m_list->setMaximumHeight(isWide ? QWIDGETSIZE_MAX : std::max(ListHeight, std::min(rest - table, height() * 2 / 5)));
 }
 
 void PlotPanel::changeEvent(QEvent *event)

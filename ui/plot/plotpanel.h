@@ -84,6 +84,7 @@ private:
     void updateList();
     void makeButtons();
     void placeButtons();
+    void shareHeight();
     void fillMenu();
 
     const Monitor &m_monitor;

@@ -15,13 +15,14 @@ struct TraceData {
     double scale = 1;                 ///< physical = raw × scale + offset, in `unit`
     double offset = 0;
     int decimals = 0;
-    QString label;
+    QString device, field; ///< what a person calls them
     QString unit; ///< traces of one unit share a value axis
     QColor color;
     int dash = 0; ///< pattern of its line, see traceInk(); 0: none
     bool visible = true;
     bool dimmed = false; ///< its device is gone
 
+    QString label() const { return device.isEmpty() ? field : device + QStringLiteral(" · ") + field; }
     double value(std::int32_t raw) const { return raw * scale + offset; }
     bool isDrawn() const { return visible && history && !history->isEmpty(); }
 };

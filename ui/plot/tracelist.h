@@ -22,6 +22,7 @@ public:
     QSize sizeHint() const override;
     /// What is offered of derived traces, also by the panel's menu.
     void addDerivedActions(QMenu &menu);
+    void askForDerived(); ///< as its menu does
 
 signals:
     void removeRequested(const QList<int> &rows);
@@ -38,7 +39,6 @@ private:
     void showMenu(const QPoint &at);
     void setShown(const QList<int> &rows, bool visible);
     void showOnly(const QList<int> &rows);
-    void askForDerived();
 
     TraceModel &m_model;
 };

@@ -187,7 +187,8 @@ std::vector<TraceData> TraceModel::drawn(const QPalette &palette) const
         data.scale = trace.scale;
         data.offset = trace.offset;
         data.decimals = trace.decimals;
-        data.label = trace.device + QStringLiteral(" · ") + trace.field;
+        data.device = trace.device;
+        data.field = trace.field;
         data.unit = trace.unit;
         data.color = traceColor(trace.color, palette);
         data.dash = dashOf(trace.color);
