@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One plot frame: new samples come, the view moves on, the panel is painted at 1200 × 700. The same data, antialiasing
 // off or on as each draws by default, into the same kind of image, beside QLineSeries and QCustomPlot. "Anew" is what
-// the wheel costs: another span with each frame, so axes and all columns are made again. Any argument: ours alone.
+// the wheel costs: another span with each frame, so axes and all columns are made again; "scrolled" what it costs to pull
+// a paused view back by a fiftieth with each frame. Any argument: ours alone.
 #undef QT_NO_FOREACH // which QCustomPlot's header needs
 
 #include "ui/common/theme.h"
@@ -80,7 +81,9 @@ void paint(QWidget &widget, QImage &image)
     widget.render(&painter, {}, {}, QWidget::DrawWindowBackground | QWidget::DrawChildren);
 }
 
-double measureOurs(const Signals &signal, const Load &load, QImage &image, bool moving)
+enum class Motion { Live, Anew, Scrolled };
+
+double measureOurs(const Signals &signal, const Load &load, QImage &image, Motion motion)
 {
     std::vector<std::unique_ptr<History>> histories;
     std::vector<TraceData> traces;
@@ -100,14 +103,20 @@ double measureOurs(const Signals &signal, const Load &load, QImage &image, bool 
                 histories[static_cast<std::size_t>(i)]->append(Interval * count, signal(i, count));
         }
     };
-    append(load.samples);
+    append(motion == Motion::Scrolled ? 2 * load.samples : load.samples);
     TimeWindow window;
     window.setSpan(Interval * load.samples);
+    if (motion == Motion::Scrolled)
+        window.pause(histories.front()->last().at);
     PlotChart chart(window);
     chart.resize(PanelSize);
-    const auto frame = [&](int) {
-        append(count + NewSamples);
-        if (!moving) // another width of column each time: nothing that was kept is of use
+    const auto frame = [&](int number) {
+        if (motion == Motion::Scrolled) {
+            window.pan(Interval * load.samples / (number % 40 < 20 ? -50 : 50));
+        } else {
+            append(count + NewSamples);
+        }
+        if (motion == Motion::Anew) // another width of column each time: nothing that was kept is of use
             window.setSpan(Interval * (load.samples - static_cast<int>(count / NewSamples % 7) * load.samples / 100));
         chart.setTraces(traces);
         chart.setNewest(histories.front()->last().at);
@@ -192,12 +201,13 @@ int main(int argc, char **argv)
     QImage image(PanelSize, QImage::Format_ARGB32_Premultiplied);
     std::printf("One plot frame, 1200 x 700, median, ms (in brackets: how many times ours)\n");
     std::printf(
-        "%-18s %10s %12s %20s %20s\n", "traces x samples", "ours", "ours, anew", "QLineSeries", "QCustomPlot");
+        "%-18s %10s %12s %10s %20s %20s\n", "traces x samples", "ours", "ours, anew", "scrolled", "QLineSeries", "QCustomPlot");
     const bool oursOnly = argc > 1;
     for (const Load load : {Load{8, 2000}, Load{40, 2000}, Load{40, 60'000}, Load{40, 1'000'000}}) {
-        const double ours = measureOurs(signal, load, image, true);
-        const double anew = measureOurs(signal, load, image, false);
-        std::printf("%3d x %-12d %10.2f %12.2f", load.traces, load.samples, ours, anew);
+        const double ours = measureOurs(signal, load, image, Motion::Live);
+        const double anew = measureOurs(signal, load, image, Motion::Anew);
+        const double scrolled = measureOurs(signal, load, image, Motion::Scrolled);
+        std::printf("%3d x %-12d %10.2f %12.2f %10.2f", load.traces, load.samples, ours, anew, scrolled);
         if (load.samples < 1'000'000 && !oursOnly) {
             const double series = measureLineSeries(signal, load, image);
             const double custom = measureCustomPlot(signal, load, image);
