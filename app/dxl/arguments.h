@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/bytes.h"
+#include "core/protocol/protocol_values.h"
 #include "core/result.h"
 
 #include <vector>
@@ -14,7 +15,6 @@ tl::unexpected<Error> wrong(const QString &text);
 
 /// Bits per second. Devices begin at 9600; whoever types less means the register's index of a rate, and would wait long.
 constexpr int LowestBaudRate = 1200;
-constexpr int HighestBaudRate = 100'000'000;
 
 /// FIELD, ADDRESS:LENGTH, or either with =VALUE.
 struct RegisterArgument {

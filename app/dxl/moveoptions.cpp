@@ -48,7 +48,7 @@ void MoveArguments::describe(CLI::App &app)
     move->add_option("OLD=NEW", typed.ids, "IDs: 1=5, or ranges: 1-3=2-4; swaps and rings, too")->type_name({});
     move->add_option("--to-baud", typed.toBaud, "The new baud rate, bits per second")
         ->type_name("N")
-        ->check(CLI::Range(1, 100'000'000).description({}));
+        ->check(CLI::Range(1, HighestBaudRate).description({}));
     move->add_option("--ids", typed.movers, "Who goes to the new baud rate, by the IDs of now: 1,4-7 (everybody found)")
         ->type_name("LIST");
     move->add_flag("--torque-off", typed.torqueOff,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bus/messages.h"
 #include "core/bus/networkaddress_values.h"
+#include "core/protocol/protocol_values.h"
 
 #include <algorithm>
 
@@ -11,7 +12,6 @@ constexpr QLatin1String RawScheme("tcp://");
 constexpr QLatin1String Rfc2217Scheme("rfc2217://");
 constexpr QLatin1String BaudQuery("?baud=");
 constexpr qsizetype LongestHost = 253; ///< of a DNS name
-constexpr int HighestBaud = 100'000'000;
 
 /// Digits alone, within 1..highest; else 0.
 int number(QStringView text, int highest)
@@ -63,7 +63,7 @@ Result<NetworkAddress> NetworkAddress::parse(const QString &name)
     QStringView rest = QStringView(name).sliced(raw ? RawScheme.size() : Rfc2217Scheme.size());
     if (const qsizetype query = rest.indexOf(u'?'); raw && query >= 0) {
         address.serverBaud =
-            rest.sliced(query).startsWith(BaudQuery) ? number(rest.sliced(query + BaudQuery.size()), HighestBaud) : 0;
+            rest.sliced(query).startsWith(BaudQuery) ? number(rest.sliced(query + BaudQuery.size()), HighestBaudRate) : 0;
         if (address.serverBaud == 0)
             return tl::unexpected(messages::addressMalformed(name));
         rest = rest.first(query);

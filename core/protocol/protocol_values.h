@@ -11,6 +11,8 @@ namespace dynascope {
 constexpr std::uint8_t MaximumId = 252;   ///< devices have 0..252
 constexpr std::uint8_t BroadcastId = 254; ///< everyone listens
 constexpr int MaximumPacketSize = 1024;   ///< bytes after stuffing; the receive buffer of most devices
+/// Bits per second: what is above can't be meant, wherever it is read or typed. The fastest device does 10.5 million.
+constexpr int HighestBaudRate = 100'000'000;
 
 /// Manual: "Instruction".
 enum class Instruction : std::uint8_t {

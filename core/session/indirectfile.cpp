@@ -2,6 +2,7 @@
 #include "core/session/indirectfile.h"
 
 #include "core/bus/scan.h"
+#include "core/protocol/protocol_values.h"
 #include "core/session/journal/journalnote.h"
 
 #include <QCoreApplication>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr qint64 LargestFile = 1024 * 1024;
 constexpr qsizetype MostDevices = 1024, MostEntries = 512;
-constexpr int LargestAddress = 0xFFFF, LargestId = 252, LargestBaudRate = 100'000'000;
+constexpr int LargestAddress = 0xFFFF, LargestId = 252;
 
 struct Texts {
     Q_DECLARE_TR_FUNCTIONS(IndirectFile)
@@ -40,7 +41,7 @@ std::optional<SetEntries> deviceFrom(const QJsonObject &object)
 {
     const auto model = numberOf(object.value(QLatin1String("model")), LargestAddress);
     const auto id = numberOf(object.value(QLatin1String("id")), LargestId);
-    const auto baud = numberOf(object.value(QLatin1String("baud")), LargestBaudRate);
+    const auto baud = numberOf(object.value(QLatin1String("baud")), HighestBaudRate);
     const QJsonArray entries = object.value(QLatin1String("entries")).toArray();
     if (!model || !id || !baud || entries.size() > MostEntries)
         return std::nullopt;

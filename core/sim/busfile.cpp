@@ -139,7 +139,7 @@ private:
         if (const YamlNode *firmware = node.find(u"firmware"))
             device.spec.firmware = static_cast<int>(whole(*firmware, 0, 255));
         const YamlNode *baud = node.find(u"baud");
-        device.spec.baudRate = baud ? static_cast<int>(whole(*baud, 1, 100'000'000)) : 57600;
+        device.spec.baudRate = baud ? static_cast<int>(whole(*baud, 1, HighestBaudRate)) : 57600;
         readIds(*id, device.spec);
         if (m_wrong)
             return;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the text of a backup to its values, every fault with its line and column.
+#include "core/protocol/protocol_values.h"
 #include "core/session/backup/backup.h"
 #include "core/session/texts.h"
 #include "core/table/nearestnames.h"
@@ -93,7 +94,7 @@ private:
         m_backup.modelNumber = number(root, u"model-number", 0, 65535);
         m_backup.firmware = number(root, u"firmware", 0, 255);
         m_backup.id = number(root, u"id", 0, 252);
-        m_backup.baudRate = number(root, u"baud", 1, 100'000'000);
+        m_backup.baudRate = number(root, u"baud", 1, HighestBaudRate);
         if (const YamlNode *date = needed(root, u"date")) {
             m_backup.at = QDateTime::fromString(date->text, Qt::ISODate).toUTC();
             if (!m_backup.at.isValid())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/session/journal/journalentry.h"
 
+#include "core/protocol/protocol_values.h"
+
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
@@ -16,7 +18,7 @@ constexpr int Format = 1;
 constexpr qsizetype LongestText = 1024;
 constexpr qsizetype MostChanges = 128;
 constexpr std::size_t LongestSpan = 2048; ///< bytes
-constexpr int HighestBaudRate = 100'000'000, HighestId = 253;
+constexpr int HighestId = 253;
 
 constexpr std::array Kinds{"write", "reboot", "reset", "clear", "backup", "restore", "packet"};
 constexpr std::array Authors{"window", "dxl", "profile", "undo", "stop", "packing"};

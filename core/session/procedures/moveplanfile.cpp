@@ -12,7 +12,6 @@ namespace {
 
 constexpr int Format = 1;
 constexpr qsizetype LargestFile = 1024 * 1024, MostDevices = 512, MostSteps = 2048, MostRates = 32;
-constexpr int LargestBaudRate = 100'000'000;
 constexpr qsizetype LongestText = 1024;
 
 tl::unexpected<Error> damaged()
@@ -37,7 +36,7 @@ QJsonArray toArray(const MovePlace &place)
 std::optional<MovePlace> placeOf(const QJsonValue &value)
 {
     const QJsonArray array = value.toArray();
-    const auto rate = number(array.at(0), 1, LargestBaudRate), id = number(array.at(1), 0, MaximumId);
+    const auto rate = number(array.at(0), 1, HighestBaudRate), id = number(array.at(1), 0, MaximumId);
     if (array.size() != 2 || !rate || !id)
         return std::nullopt;
     return MovePlace{*rate, *id};
@@ -85,7 +84,7 @@ std::optional<MoveDevice> deviceOf(const QJsonObject &object)
     device.idAddress = static_cast<std::uint16_t>(*idAt);
     device.baudAddress = static_cast<std::uint16_t>(*baudAt);
     for (const QJsonValue &each : rates) {
-        const auto rate = number(each.toArray().at(0), 1, LargestBaudRate), code = number(each.toArray().at(1), 0, 255);
+        const auto rate = number(each.toArray().at(0), 1, HighestBaudRate), code = number(each.toArray().at(1), 0, 255);
         if (!rate || !code)
             return std::nullopt;
         device.rates.emplace_back(*rate, *code);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From the text of a profile to its values, every fault with its line and column.
+#include "core/protocol/protocol_values.h"
 #include "core/session/profile/profilevalues.h"
 #include "core/session/texts.h"
 #include "core/table/nearestnames.h"
@@ -221,7 +222,7 @@ private:
 
     void readBaud(const YamlNode &node, ProfileJoint &joint)
     {
-        joint.baudRate = whole(node, "baud", 1, 100'000'000);
+        joint.baudRate = whole(node, "baud", 1, HighestBaudRate);
         const ControlTablePtr table = m_catalog.find(joint.modelNumber, joint.firmware < 0 ? 255 : joint.firmware);
         if (joint.baudRate < 0 || !table || table->baudCode(joint.baudRate))
             return;
