@@ -174,7 +174,7 @@ Result<void> Bus::perform(const Request &request, ByteView packet, Waiting &wait
     explainSilence(request, result);
     m_echoes = m_echoes || result.seen.echo;
     const auto hasCome = [](const Result<Reply> &reply) { return reply && reply->bytes > 0; };
-    if (!result.replies.empty() && std::ranges::all_of(result.replies, hasCome))
+    if (!result.replies.empty() && std::ranges::all_of(result.replies, hasCome) && !mayBeEarlierPings(request, result))
         m_channel.noteAnswered();
     learn(request, result, waiting.sent);
     remember(request, result, waiting.sent);
@@ -215,9 +215,7 @@ void Bus::learn(const Request &request, const ExchangeResult &result, LineTime s
         return;
     const Reply &first = *result.replies.front();
     const bool cut = request.shape == ReplyShape::Fast && result.brokenAt >= 0; // nobody knows where it ended
-    // Which of two Pings was answered nobody knows.
-    const bool ambiguous = request.packet.instruction == Instruction::Ping && m_late.couldBePing(first.id);
-    if (first.bytes == 0 || cut || ambiguous)
+    if (first.bytes == 0 || cut || mayBeEarlierPings(request, result))
         return;
     const std::size_t bytes = request.shape == ReplyShape::Fast ? request.maximumReplySize() : first.bytes;
     m_timing.learn(first.id, first.at - timing::times(bytes, byteTime) - sent - traits(first.id).returnDelay);
@@ -301,11 +299,6 @@ Result<void> Bus::sendOnly(ByteView packet)
     return m_channel.waitUntil(m_channel.sentBy(), Channel::Heed::Nothing);
 }
 
-Result<void> Bus::settle(LineTime quiet, LineTime limit)
-{
-    return m_channel.settle(quiet, limit, Channel::Heed::Nothing);
-}
-
 Result<void> Bus::letEnd(LineTime pause, LineTime limit)
 {
     const LineTime end = m_channel.now() + limit;
@@ -315,10 +308,9 @@ Result<void> Bus::letEnd(LineTime pause, LineTime limit)
         if (!received)
             return tl::unexpected(received.error());
         m_channel.countDiscarded(received->size());
-        const LineTime heard = m_channel.lastByteAt();
-        until = m_channel.isAnswered() ? LineTime() : m_answerEnd + pause;
-        if (heard > m_channel.sentBy())
-            until = std::max(until, heard + pause);
+        until = std::max(m_channel.lastByteAt(), m_channel.sentBy()) + pause;
+        if (!m_channel.isAnswered())
+            until = std::max(until, m_answerEnd + pause);
     } while (m_channel.now() < std::min(until, end));
     m_channel.line().discardInput();
     return {};

@@ -46,11 +46,8 @@ public:
     /// Sends and waits for the bytes to leave. Looks at no stop flag: this is what STOP uses.
     Result<void> sendOnly(ByteView packet);
 
-    /// Waits until `quiet` long nothing has come, and discards it; at most `limit`. Looks at no stop flag.
-    Result<void> settle(LineTime quiet, LineTime limit);
-
-    /// Lets an answer that may be under way end, as long as it takes by what was asked, and then until `pause` long
-    /// nothing has come; at most `limit`. Discards it. Looks at no stop flag.
+    /// Lets an answer that may be under way end, as long as it takes by what was asked, and waits until `pause` long
+    /// nothing has come or gone; at most `limit`. Discards what came. Looks at no stop flag.
     Result<void> letEnd(LineTime pause, LineTime limit);
 
     /// Lets time pass; what comes meanwhile is discarded.
@@ -98,6 +95,7 @@ private:
     LineTime longestWait(const Request &request, const Waiting &waiting) const;
     LineTime allowance(const Request &request) const, answerEnd(const Request &request, LineTime sent) const;
     bool isMute(const Request &request, std::uint8_t id) const;
+    bool mayBeEarlierPings(const Request &request, const ExchangeResult &result) const;
     void learn(const Request &request, const ExchangeResult &result, LineTime sent);
     void remember(const Request &request, const ExchangeResult &result, LineTime sent);
     bool isExpectedSilence(const Request &request) const;

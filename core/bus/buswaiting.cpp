@@ -57,12 +57,14 @@ LineTime Bus::deadline(const Request &request, const Waiting &waiting) const
         + (isMute(request, next) ? timing::processing(Instruction::Read) : processing);
 }
 
-/// Of a broadcast Ping, that of the first who answers.
+/// When the answers have left the wire, as far as that is known: of those to a broadcast Ping, that of ID 0.
 LineTime Bus::answerEnd(const Request &request, LineTime sent) const
 {
     const LineTime byteTime = m_channel.line().byteTime();
     if (request.shape == ReplyShape::Anyone)
         return sent + Traits().returnDelay + timing::times(timing::largestStatus(PingReplyLength), byteTime);
+    if (request.shape == ReplyShape::Single && isMute(request, request.replies.front().id))
+        return sent;
     LineTime end = sent + timing::times(request.maximumReplySize(), byteTime);
     for (const ExpectedReply &reply : request.replies) {
         end += traits(reply.id).returnDelay;
@@ -70,6 +72,13 @@ LineTime Bus::answerEnd(const Request &request, LineTime sent) const
             break;
     }
     return end;
+}
+
+/// Which of two Pings was answered nobody knows.
+bool Bus::mayBeEarlierPings(const Request &request, const ExchangeResult &result) const
+{
+    return request.packet.instruction == Instruction::Ping && !result.replies.empty() && result.replies.front()
+        && m_late.couldBePing(result.replies.front()->id);
 }
 
 /// Will this device keep silent about this request, by its Status Return Level?

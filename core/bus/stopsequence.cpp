@@ -16,9 +16,9 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr LineTime Pause = 500us;       ///< behind an answer: servos and hosts are not exact
-constexpr LineTime WireFreeLimit = 3ms; ///< longer than this STOP waits for nobody's packet
+constexpr LineTime WireFreeLimit = 3ms; ///< longer than this STOP's first packet waits for no answer
 constexpr LineTime Quiet = 2ms;
-constexpr LineTime QuietLimit = 20ms;
+constexpr LineTime QuietLimit = 20ms;   ///< the second one, which may have a longer answer to let end
 constexpr LineTime SecondLook = 50ms; ///< after who did not answer STOP
 
 Result<void> sendAll(Bus &bus, const std::vector<Bytes> &packets)
@@ -36,7 +36,7 @@ Result<void> sendTwice(Bus &bus, const std::vector<Bytes> &packets)
         return {};
     if (Result<void> sent = sendAll(bus, packets); !sent)
         return sent;
-    if (Result<void> quiet = bus.settle(Quiet, QuietLimit); !quiet)
+    if (Result<void> quiet = bus.letEnd(Quiet, QuietLimit); !quiet)
         return quiet;
     return sendAll(bus, packets);
 }
