@@ -144,13 +144,20 @@ private:
         m_steps.push_back({[this] { m_plots.measure(); }});
         m_steps.push_back({[this] { m_plots.addEvents(); }, DialogTime * 2});
         shootBoth(large, "plots");
-        m_steps.push_back({[this] { m_dialog = m_plots.openTrigger(); }});
+        m_steps.push_back({[this] { expect(m_plots.openTrigger()); }});
         shootBoth({}, "trigger");
         m_steps.push_back({[this] {
             closeDialog();
-            m_dialog = m_plots.openDerived();
+            expect(m_plots.openDerived());
         }});
         shootBoth({}, "derived");
+    }
+
+    /// The next pictures are of this.
+    void expect(QWidget *dialog)
+    {
+        m_dialog = dialog;
+        m_failed = m_failed || !dialog;
     }
 
     void closeDialog()

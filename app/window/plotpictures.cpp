@@ -86,8 +86,7 @@ QDialog *PlotPictures::openDerived()
 
 QDialog *PlotPictures::openTrigger()
 {
-    if (auto *trigger = plots()->findChild<AreaTrigger *>())
-        trigger->ask();
+    plots()->askForTrigger();
     return m_workshop.window().findChild<QDialog *>(QStringLiteral("triggerDialog"));
 }
 

@@ -166,8 +166,7 @@ void History::openChunk()
     }
     m_packed.emplace_back(*m_open, m_memory);
     m_whole.push_back(m_packed.back().all());
-    m_open->at = {};
-    m_open->raw = {};
+    m_open->giveRoomBack();
     m_openBegin += ChunkSize;
 }
 

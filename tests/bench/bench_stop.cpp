@@ -69,7 +69,7 @@ public:
             if (!m_stop.isActive() || m_stop.isVerifying() || m_isEnding)
                 return;
             if (!m_stop.isConfirmed() && !m_patience.isActive()) { // whose place changed just then is looked for
-                ++later;
+                m_isLater = true;
                 m_patience.start(2000);
             }
             if (m_stop.isConfirmed())
@@ -105,6 +105,7 @@ private:
     {
         m_isEnding = false;
         unconfirmed += m_stop.isConfirmed() ? 0 : 1;
+        later += std::exchange(m_isLater, false) && m_stop.isConfirmed() ? 1 : 0;
         const Seen seen = firstTorqueOff(m_server, m_press);
         if (seen.found)
             excess.push_back(std::chrono::duration<double, std::milli>(seen.afterPress - seen.inFlight).count());
@@ -122,7 +123,7 @@ private:
     LineTime m_press{};
     std::uint32_t m_random = 7;
     int m_rounds = 0;
-    bool m_isEnding = false;
+    bool m_isEnding = false, m_isLater = false;
     QTimer m_patience;
 };
 

@@ -239,9 +239,9 @@ void atWork(bench::MeasuringApplication &application, const Catalog &catalog, in
 
     application.figures = {};
     application.measuring = true;
+    LineSession &line = *scene.m_workshop.session().lines().front();
     const double begin = scene.cpu(), ownBegin = bench::cpuMilliseconds();
     scene.runFor(seconds * 1000);
-    const LineSession &line = *scene.m_workshop.session().lines().front();
     const double rate = line.cycleRate(), predicted = line.prediction().cycleRate;
     const double all = (scene.cpu() - begin) / (seconds * 10), own = (bench::cpuMilliseconds() - ownBegin) / (seconds * 10);
     application.measuring = false;
@@ -254,18 +254,21 @@ void atWork(bench::MeasuringApplication &application, const Catalog &catalog, in
     const RecorderStatus status = records->recorder().status();
     const auto [came, missed] = recorded(folder.path());
     const bench::EventFigures &figures = application.figures;
+    const BusStatistics statistics = line.bus().statistics();
     std::printf("at work, 20 servos x 6 fields at 4 Mbps, two plots, grid, dashboard, recording, %d s: %.0f cycles/s, %.3f of "
                 "those predicted\n"
                 "  CPU time %.0f %% of a core, of which the GUI thread %.0f %%; memory %.0f MB\n"
                 "  GUI thread: %llu events, longest %.1f ms of its CPU time (%s), %.1f ms by the wall; %llu over 4 ms, "
                 "%llu over 16 ms\n"
-                "  Present Positions asked for on the wire %llu, answered %llu; recorded %llu and %llu missed; the recorder "
-                "says %llu samples, %llu lost, %.1f MB (%.2f bytes a sample)\n",
+                "  Present Positions asked for on the wire %llu, answered %llu; recorded %llu and %llu missed, %lld asked "
+                "again (the line counts %llu late answers, %llu exchanges repeated); the recorder says %llu samples, %llu lost, %.1f MB (%.2f bytes a sample)\n",
                 seconds, rate, rate / predicted, all, own, bench::memoryMegabytes("VmRSS:"), static_cast<unsigned long long>(figures.events),
                 figures.longest, qPrintable(figures.longestName), figures.longestWall,
                 static_cast<unsigned long long>(figures.over4), static_cast<unsigned long long>(figures.over16),
                 static_cast<unsigned long long>(scene.m_count.asked), static_cast<unsigned long long>(scene.m_count.answered),
                 static_cast<unsigned long long>(came), static_cast<unsigned long long>(missed),
+                static_cast<long long>(scene.m_count.asked) - static_cast<long long>(came + missed),
+                static_cast<unsigned long long>(statistics.lateAnswers), static_cast<unsigned long long>(statistics.retries),
                 static_cast<unsigned long long>(status.samples), static_cast<unsigned long long>(status.lost),
                 static_cast<double>(status.bytes) * 1e-6,
                 static_cast<double>(status.bytes) / static_cast<double>(std::max<quint64>(1, status.samples)));

@@ -21,7 +21,9 @@ class OwnSettings
 public:
     OwnSettings()
     {
-        for (const char *place : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME"})
+        if (!m_folder.isValid())
+            qFatal("no folder for settings: %s", qPrintable(m_folder.errorString()));
+        for (const char *place : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME"})
             qputenv(place, QFile::encodeName(m_folder.path()));
     }
 

@@ -18,12 +18,11 @@ constexpr std::size_t SearchedAFrame = 100'000; ///< samples, about a millisecon
 } // namespace
 
 AreaTrigger::AreaTrigger(
-    EventLog &log, Monitor &monitor, const std::vector<PlotPanel *> &panels, TimeWindow &window, QWidget *area)
-    : QObject(area)
-    , m_monitor(monitor)
+    EventLog &log, Monitor &monitor, const std::vector<PlotPanel *> &panels, TimeWindow &window, QWidget &area)
+    : m_monitor(monitor)
     , m_panels(panels)
     , m_window(window)
-    , m_area(*area)
+    , m_area(area)
     , m_trigger(log)
 {
 }
@@ -75,11 +74,8 @@ void AreaTrigger::ask()
     present(*dialog);
 }
 
-/// What a person paused isn't moved by it.
 void AreaTrigger::look(LineTime now)
 {
-    if (!m_trigger.isOn() || (!m_window.isLive() && !m_isHeld))
-        return;
     const PlotPanel *of = panel();
     const TraceModel *model = of ? &of->model() : nullptr;
     const History *history = model ? model->history(model->indexOf(m_trigger.choice().trace)) : nullptr;

@@ -17,14 +17,15 @@ class AreaTrigger : public QObject
     Q_OBJECT
 
 public:
-    /// What is shown, and in which time; both outlive this.
-    AreaTrigger(EventLog &log, Monitor &monitor, const std::vector<PlotPanel *> &panels, TimeWindow &window, QWidget *area);
+    /// What is shown, in which time, and where the dialog belongs; all outlive this.
+    AreaTrigger(EventLog &log, Monitor &monitor, const std::vector<PlotPanel *> &panels, TimeWindow &window, QWidget &area);
 
     PlotTrigger &trigger() { return m_trigger; }
     void arm(const TriggerChoice &choice, LineTime now);
     void setOn(bool on, LineTime now); ///< asks by what, where nobody has said so
     void ask();
-    void look(LineTime now); ///< with each frame
+    bool isLooking() const { return m_trigger.isOn() && (m_window.isLive() || m_isHeld); } ///< a person's pause stays
+    void look(LineTime now); ///< with each frame while it is
 
     bool isHeld() const { return m_isHeld; } ///< the view stands where the trigger put it
     void letGo() { m_isHeld = false; }       ///< it was moved or zoomed, or is live again: it stays so

@@ -20,7 +20,7 @@ constexpr int Air = 16;                     ///< beside the text of a cell
 
 } // namespace
 
-MeasureTable::MeasureTable(MeasureModel &model, QWidget *parent) : QTableView(parent)
+MeasureTable::MeasureTable(MeasureModel &model, QWidget *parent) : QTableView(parent), m_mostRows(MostRows)
 {
     setModel(&model);
     setFrameShape(NoFrame);

@@ -31,7 +31,7 @@ private:
     void copySelected() const;
     int heightFor(int rows) const;
 
-    int m_mostRows = 5; ///< more are scrolled
+    int m_mostRows; ///< more are scrolled
 };
 
 } // namespace dynascope

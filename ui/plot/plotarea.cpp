@@ -40,10 +40,10 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, c
     , m_monitor(monitor)
     , m_colors(session)
     , m_events(new EventLog(session, journal, guard, this))
-    , m_trigger(new AreaTrigger(*m_events, monitor, m_panels, m_window, this))
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
-    , m_saver(new PlotSaver(monitor, m_panels, *m_splitter, this))
+    , m_trigger(std::make_unique<AreaTrigger>(*m_events, monitor, m_panels, m_window, *this))
+    , m_saver(std::make_unique<PlotSaver>(monitor, m_panels, *m_splitter, *this))
 {
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -90,18 +90,18 @@ void PlotArea::connectBar()
     for (QAction *action : m_bar->saveActions())
         addAction(action); // their keys work though they are in a menu
     connect(&m_bar->layouts(), &QMenu::aboutToShow, this, [this] { fillLayouts(m_bar->layouts()); });
-    connect(m_bar, &PlotBar::drawingRequested, m_saver, &PlotSaver::saveDrawing);
+    connect(m_bar, &PlotBar::drawingRequested, m_saver.get(), &PlotSaver::saveDrawing);
     connect(m_bar, &PlotBar::csvRequested, this, [this] { m_saver->saveCsv(*m_present); });
-    connect(m_bar, &PlotBar::pictureRequested, m_saver, &PlotSaver::savePicture);
-    connect(m_saver, &PlotSaver::posted, this, &PlotArea::posted);
+    connect(m_bar, &PlotBar::pictureRequested, m_saver.get(), &PlotSaver::savePicture);
+    connect(m_saver.get(), &PlotSaver::posted, this, &PlotArea::posted);
     connect(m_bar, &PlotBar::panelRequested, this, &PlotArea::addPanel);
     connect(m_bar, &PlotBar::cursorsChanged, this, &PlotArea::setCursorsOn);
     connect(m_bar, &PlotBar::triggerChanged, this, &PlotArea::setTriggerOn);
-    connect(m_bar, &PlotBar::triggerSettingsRequested, m_trigger, &AreaTrigger::ask);
-    connect(m_trigger, &AreaTrigger::chosen, this, &PlotArea::arm);
-    connect(m_trigger, &AreaTrigger::armedChanged, m_bar, &PlotBar::setTrigger);
-    connect(m_trigger, &AreaTrigger::liveRequested, this, [this] { setLive(true); });
-    connect(m_trigger, &AreaTrigger::stood, this, [this] {
+    connect(m_bar, &PlotBar::triggerSettingsRequested, m_trigger.get(), &AreaTrigger::ask);
+    connect(m_trigger.get(), &AreaTrigger::chosen, this, &PlotArea::arm);
+    connect(m_trigger.get(), &AreaTrigger::armedChanged, m_bar, &PlotBar::setTrigger);
+    connect(m_trigger.get(), &AreaTrigger::liveRequested, this, [this] { setLive(true); });
+    connect(m_trigger.get(), &AreaTrigger::stood, this, [this] {
         m_bar->setLive(false);
         refreshAll();
     });
@@ -291,7 +291,8 @@ void PlotArea::hideEvent(QHideEvent *event)
 void PlotArea::onFrame()
 {
     derive();
-    m_trigger->look(newest());
+    if (m_trigger->isLooking())
+        m_trigger->look(newest());
     measure();
     if (!m_window.isLive())
         return;

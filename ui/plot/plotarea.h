@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/session/monitor.h"
 #include "core/table/units.h"
 #include "ui/common/messagebar.h"
 #include "ui/common/workbench.h"
@@ -52,6 +51,7 @@ public:
     void setCursorsOn(bool on);
     PlotTrigger &trigger() const { return m_trigger->trigger(); }
     void arm(const TriggerChoice &choice);
+    void askForTrigger() { m_trigger->ask(); }
     void setTriggerOn(bool on);
     EventLog &events() const { return *m_events; }
     const PlotCursors &cursors() const { return m_cursors; }
@@ -103,10 +103,8 @@ private:
     UnitPreferences m_units;
     TraceColors m_colors;
     EventLog *m_events;
-    AreaTrigger *m_trigger;
     PlotBar *m_bar;
     QSplitter *m_splitter;
-    PlotSaver *m_saver;
     std::vector<PlotPanel *> m_panels; ///< the splitter's
     PlotPanel *m_present = nullptr;    ///< where new traces go
     PlotCursors m_cursors;
@@ -115,6 +113,8 @@ private:
     std::uint64_t m_samplesSeen = 0;
     LineTime m_recordingEnd{};
     std::vector<std::vector<PlotState::Trace>> m_waiting; ///< per panel: remembered, but the device isn't there yet
+    std::unique_ptr<AreaTrigger> m_trigger; ///< these look at the panels
+    std::unique_ptr<PlotSaver> m_saver;
 };
 
 } // namespace dynascope

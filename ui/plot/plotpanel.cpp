@@ -66,6 +66,7 @@ PlotPanel::PlotPanel(const Common &common, QWidget *parent)
     m_chart->installEventFilter(this);
     m_list->installEventFilter(this);
     m_list->viewport()->installEventFilter(this);
+    m_table->installEventFilter(this);
     updateList();
 }
 
@@ -270,6 +271,8 @@ bool PlotPanel::eventFilter(QObject *watched, QEvent *event)
 {
     if (watched == m_chart && event->type() == QEvent::Resize)
         placeButtons();
+    else if (watched == m_table && event->type() == QEvent::Resize)
+        shareHeight(); // narrower, it may have a scroll bar
     if (event->type() == QEvent::FocusIn || event->type() == QEvent::MouseButtonPress)
         emit activated();
     return QFrame::eventFilter(watched, event);

@@ -25,9 +25,8 @@ const QString Topic = QStringLiteral("save");
 } // namespace
 
 PlotSaver::PlotSaver(
-    const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget *window)
-    : QObject(window)
-    , m_panels(panels)
+    const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget &window)
+    : m_panels(panels)
     , m_splitter(splitter)
     , m_window(window)
     , m_csv(monitor)
@@ -43,7 +42,7 @@ PlotSaver::PlotSaver(
 
 void PlotSaver::ask(const QString &title, const QString &suffix, std::function<void(const QString &)> save)
 {
-    askWhereToSave(m_window, title, suffix, suggestedFileName(suffix), std::move(save));
+    askWhereToSave(&m_window, title, suffix, suggestedFileName(suffix), std::move(save));
 }
 
 std::vector<CsvSave::Trace> PlotSaver::traces() const

@@ -10,15 +10,15 @@ namespace dynascope {
 
 class PlotPanel;
 
-/// Asks where what the panels show shall be saved, has it saved, and says what became of it. What is saved is as it was
-/// when asked: a live plot moves on while the person chooses a name.
+/// Asks where what the panels show shall be saved, has it saved, and says what became of it. Pictures and times are of when
+/// it was asked: a live plot moves on while the person chooses a name. Which traces there are is looked at then.
 class PlotSaver : public QObject
 {
     Q_OBJECT
 
 public:
-    /// `splitter` has the panels in it. All outlive this.
-    PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget *window);
+    /// `splitter` has the panels in it, dialogs belong to `window`. All outlive this.
+    PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget &window);
 
     void saveCsv(const PlotPanel &timed); ///< all samples in its view, of all panels. Refused while another is written
     void savePicture();
@@ -36,7 +36,7 @@ private:
 
     const std::vector<PlotPanel *> &m_panels;
     QSplitter &m_splitter;
-    QWidget *m_window;
+    QWidget &m_window;
     CsvSave m_csv;
     QTimer m_patience; ///< what is done at once needs no word before
 };

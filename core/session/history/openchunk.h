@@ -39,6 +39,12 @@ struct OpenChunk {
         return true;
     }
 
+    void giveRoomBack()
+    {
+        at.clear();
+        raw.clear();
+    }
+
     /// Where there is room.
     void put(std::size_t slot, LineTime time, std::int32_t value, bool gap)
     {
