@@ -10,10 +10,12 @@
 #include <QComboBox>
 #include <QDialog>
 #include <QFile>
+#include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPointer>
 #include <QPushButton>
 #include <QSettings>
 #include <QTemporaryDir>
@@ -220,6 +222,31 @@ private slots:
         QTest::mouseClick(replace, Qt::LeftButton);
         QCOMPARE(saved, QStringList(path));
         QTRY_VERIFY(!dialog);
+    }
+
+    /// The first time where files of that kind usually are, then where the last one was.
+    void filesAreAskedForWhereTheLastOneWas()
+    {
+        const QTemporaryDir usual, other;
+        const QString path = other.filePath(QStringLiteral("walk.mcap"));
+        QVERIFY(QFile(path).open(QIODevice::WriteOnly));
+        const QStringList suffixes{QStringLiteral("mcap")};
+        const auto ask = [&] {
+            askWhatToOpen(m_window.get(), QStringLiteral("Open"), suffixes, [](const QString &) {}, usual.path());
+            return static_cast<QFileDialog *>(m_window->findChild<QDialog *>(QStringLiteral("openDialog")));
+        };
+        QPointer<QFileDialog> dialog = ask();
+        QCOMPARE(dialog->directory(), QDir(usual.path()));
+        dialog->selectFile(path);
+        static_cast<QDialog *>(dialog)->accept();
+        QTRY_VERIFY(!dialog);
+        dialog = ask();
+        QCOMPARE(dialog->directory(), QDir(other.path()));
+        dialog->close();
+        askWhereToSave(m_window.get(), QStringLiteral("Save"), QStringLiteral("mcap"), QStringLiteral("run.mcap"), [](const QString &) {});
+        auto *save = m_window->findChild<QFileDialog *>(QStringLiteral("saveDialog"));
+        QCOMPARE(save->selectedFiles(), QStringList(other.filePath(QStringLiteral("run.mcap"))));
+        save->close();
     }
 
 private:

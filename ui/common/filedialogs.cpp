@@ -9,6 +9,7 @@
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QSettings>
 
 namespace dynascope {
 
@@ -52,6 +53,17 @@ private:
     QString m_agreed; ///< a file that may be replaced
 };
 
+/// Where one of this kind was chosen last; else in `first`.
+void beginIn(QFileDialog &dialog, const QString &kind, const QString &first = {})
+{
+    const QString key = QStringLiteral("folders/") + kind;
+    const QString last = QSettings().value(key, first).toString();
+    if (!last.isEmpty() && QFileInfo(last).isDir())
+        dialog.setDirectory(last);
+    QObject::connect(&dialog, &QFileDialog::fileSelected, &dialog,
+                     [key](const QString &path) { QSettings().setValue(key, QFileInfo(path).absolutePath()); });
+}
+
 } // namespace
 
 void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix, const QString &suggested,
@@ -67,13 +79,14 @@ void askWhereToSave(QWidget *parent, const QString &title, const QString &suffix
     dialog->setAcceptMode(QFileDialog::AcceptSave);
     dialog->setDefaultSuffix(suffix);
     dialog->setNameFilter(QCoreApplication::translate("FileDialogs", "%1 files (*.%2)").arg(suffix.toUpper(), suffix));
+    beginIn(*dialog, suffix);
     dialog->selectFile(suggested);
     QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(save));
     present(*dialog, suffix);
 }
 
 void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suffixes,
-                   std::function<void(const QString &path)> open)
+                   std::function<void(const QString &path)> open, const QString &usualFolder)
 {
     const QString name = QStringLiteral("openDialog");
     if (raiseOpen(*parent, name, title))
@@ -89,6 +102,7 @@ void askWhatToOpen(QWidget *parent, const QString &title, const QStringList &suf
     dialog->setNameFilters({QCoreApplication::translate("FileDialogs", "%1 files (%2)")
                                 .arg(suffixes.value(0).toUpper(), patterns.join(u' ')),
                             QCoreApplication::translate("FileDialogs", "All files (*)")});
+    beginIn(*dialog, suffixes.value(0), usualFolder);
     QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(open));
     present(*dialog, title);
 }
@@ -103,6 +117,7 @@ void askForFolder(QWidget *parent, const QString &title, std::function<void(cons
     dialog->setOption(QFileDialog::DontUseNativeDialog);
     dialog->setOption(QFileDialog::ShowDirsOnly);
     dialog->setFileMode(QFileDialog::Directory);
+    beginIn(*dialog, QStringLiteral("folder"));
     QObject::connect(dialog, &QFileDialog::fileSelected, parent, std::move(take));
     present(*dialog, title);
 }

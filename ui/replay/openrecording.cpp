@@ -2,6 +2,7 @@
 #include "ui/replay/openrecording.h"
 
 #include "ui/common/filedialogs.h"
+#include "ui/record/recordwishes.h"
 
 #include <QCoreApplication>
 #include <QMimeData>
@@ -11,7 +12,8 @@ namespace dynascope {
 
 void askForRecording(QWidget *parent, std::function<void(const QString &path)> open)
 {
-    askWhatToOpen(parent, QCoreApplication::translate("ReplayWindow", "Open a recording"), {QStringLiteral("mcap")}, std::move(open));
+    askWhatToOpen(parent, QCoreApplication::translate("ReplayWindow", "Open a recording"), {QStringLiteral("mcap")}, std::move(open),
+                  RecordWishes::saved().folder);
 }
 
 QStringList recordingsOf(const QMimeData &dragged)
