@@ -230,6 +230,12 @@ double contrastRatio(const QColor &one, const QColor &other)
     return (qMax(a, b) + 0.05) / (qMin(a, b) + 0.05);
 }
 
+QFont boldened(QFont font)
+{
+    font.setBold(true);
+    return font;
+}
+
 QFont numberFont(const QFont &base)
 {
     if (hasEqualDigits(base))

@@ -35,5 +35,6 @@ double contrastRatio(const QColor &one, const QColor &other);
 
 /// The UI font if its ten digits are of one width, else the system's fixed font at the same size.
 QFont numberFont(const QFont &base);
+QFont boldened(QFont font);
 
 } // namespace dynascope

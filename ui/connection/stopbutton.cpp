@@ -19,12 +19,6 @@ constexpr int Padding = 14;
 constexpr int Gap = 8;
 const QColor Red(0xC6, 0x28, 0x28); ///< the same in light and dark: a sign, not a decoration; white on it is 5.6:1
 
-QFont boldened(QFont font)
-{
-    font.setBold(true);
-    return font;
-}
-
 } // namespace
 
 StopButton::StopButton(StopControl &stop, QWidget *parent)

@@ -3,6 +3,7 @@
 
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
+#include "ui/common/theme.h"
 
 #include <QCheckBox>
 #include <QDialogButtonBox>
@@ -36,9 +37,7 @@ DeviceDialog::DeviceDialog(Device &device, const QString &title, const QString &
     m_who->setObjectName(QStringLiteral("who"));
     m_who->setWordWrap(true);
     m_who->setTextFormat(Qt::PlainText);
-    QFont bold = m_who->font();
-    bold.setBold(true);
-    m_who->setFont(bold);
+    m_who->setFont(boldened(m_who->font()));
     m_form->setHorizontalSpacing(16);
     m_form->setVerticalSpacing(8);
 

@@ -57,9 +57,7 @@ MoveDialog::MoveDialog(Session &session, Commands &commands, LineSession &line, 
 
 void MoveDialog::build()
 {
-    QFont bold = m_where->font();
-    bold.setBold(true);
-    m_where->setFont(bold);
+    m_where->setFont(boldened(m_where->font()));
     m_where->setTextFormat(Qt::PlainText);
     m_list->setObjectName(QStringLiteral("moveSteps"));
     m_list->setAccessibleName(tr("Steps"));

@@ -5,6 +5,7 @@
 #include "ui/common/filedialogs.h"
 #include "ui/common/icons.h"
 #include "ui/common/texts.h"
+#include "ui/common/theme.h"
 
 #include <QAction>
 #include <QDir>
@@ -45,9 +46,7 @@ ProfileFileBar::ProfileFileBar(QWidget *parent)
     m_saveInto->setObjectName(QStringLiteral("saveIntoAction"));
     m_saveInto->setToolTip(tr("Comments and order stay; only values are changed, and what is missing is added"));
     m_saveMenu->setToolTipsVisible(true);
-    QFont bold = m_robot->font();
-    bold.setBold(true);
-    m_robot->setFont(bold);
+    m_robot->setFont(boldened(m_robot->font()));
     m_robot->setTextFormat(Qt::PlainText);
     m_robot->setObjectName(QStringLiteral("robotName"));
     auto *layout = new QHBoxLayout(this);

@@ -346,11 +346,8 @@ QVariant ProfileModel::data(const QModelIndex &index, int role) const
             return joint->isChosen ? Qt::Checked : Qt::Unchecked;
         return {};
     case Qt::FontRole:
-        if (isTitle) {
-            QFont bold = QApplication::font();
-            bold.setBold(true);
-            return bold;
-        }
+        if (isTitle)
+            return boldened(QApplication::font());
         return {};
     default: return {};
     }

@@ -2,6 +2,7 @@
 #include "ui/profile/profileplanpage.h"
 
 #include "ui/common/texts.h"
+#include "ui/common/theme.h"
 #include "ui/profile/profiletexts.h"
 
 #include <QCheckBox>
@@ -116,19 +117,12 @@ void ProfilePlanPage::fill(const ProfileRun &run)
     }
 }
 
-QFont ProfilePlanPage::boldFont() const
-{
-    QFont bold = font();
-    bold.setBold(true);
-    return bold;
-}
-
 void ProfilePlanPage::addMoves(const MovePlan &plan)
 {
     for (const MoveStep &step : plan.steps) {
         auto *item = new QTreeWidgetItem(m_steps); // which owns it
         item->setText(What, tr("Move %1").arg(plan.devices[step.device].place.name));
-        item->setFont(What, boldFont());
+        item->setFont(What, boldened(font()));
         item->setSizeHint(Where, QSize(0, PlanRowHeight));
         item->setText(Now, step.isBaud() ? baudText(step.from.baudRate) : tr("ID %1").arg(step.from.id));
         item->setText(Then, step.isBaud() ? baudText(step.to.baudRate) : tr("ID %1").arg(step.to.id));
@@ -142,7 +136,7 @@ void ProfilePlanPage::addJoint(const JointApply &joint, const JointComparison &c
     auto *item = new QTreeWidgetItem(m_steps); // which owns it
     item->setText(What, joint.name);
     item->setText(Now, profilePlaceText(joint.table->model(), joint.found.id, joint.found.baudRate));
-    item->setFont(What, boldFont());
+    item->setFont(What, boldened(font()));
     item->setSizeHint(Where, QSize(0, PlanRowHeight));
     if (joint.needsTorqueOff)
         addStep(*item, tr("Torque off"), tr("On"), tr("Off"), {});

@@ -36,7 +36,6 @@ signals:
 private:
     QCheckBox *addOption(const char *name, const QString &text, const QString &toolTip);
     void fill(const ProfileRun &run);
-    QFont boldFont() const;
     void addMoves(const MovePlan &plan);
     void addJoint(const JointApply &joint, const JointComparison &comparison);
     void addWrites(QTreeWidgetItem &under, const JointApply &joint, const JointComparison &comparison);

@@ -51,9 +51,7 @@ RecordBadge::RecordBadge(const SessionRecorder &recorder, const SessionStream &s
     }
     m_time->setFixedWidth(widthOf(*m_time, QStringLiteral("000:00:00")));
     m_size->setFixedWidth(widthOf(*m_size, QStringLiteral("0000.0 MB")));
-    QFont bold = font();
-    bold.setBold(true);
-    m_word->setFont(bold);
+    m_word->setFont(boldened(font()));
     m_button->setObjectName(QStringLiteral("recordButton"));
     m_button->setAutoRaise(true);
     m_button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);

@@ -2,6 +2,7 @@
 #include "ui/table/bitpopup.h"
 
 #include "ui/common/texts.h"
+#include "ui/common/theme.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -37,9 +38,7 @@ BitPopup::BitPopup(const Field &field, std::int64_t raw, QWidget *parent)
     layout->setSpacing(8);
     auto *title = new QLabel(field.name, this);
     title->setTextFormat(Qt::PlainText);
-    QFont bold = title->font();
-    bold.setBold(true);
-    title->setFont(bold);
+    title->setFont(boldened(title->font()));
     layout->addWidget(title);
     for (const BitField &bits : field.bits)
         layout->addWidget(makeRow(bits));

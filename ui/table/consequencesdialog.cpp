@@ -5,6 +5,7 @@
 #include "ui/common/icons.h"
 #include "ui/common/present.h"
 #include "ui/common/texts.h"
+#include "ui/common/theme.h"
 
 #include <QCheckBox>
 #include <QDialogButtonBox>
@@ -38,9 +39,7 @@ QLabel *makeText(const QString &text, QWidget *parent)
 QLabel *makeBold(const QString &text, QWidget *parent)
 {
     QLabel *label = makeText(text, parent);
-    QFont font = label->font();
-    font.setBold(true);
-    label->setFont(font);
+    label->setFont(boldened(label->font()));
     return label;
 }
 

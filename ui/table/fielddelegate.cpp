@@ -69,10 +69,8 @@ void FieldDelegate::paint(QPainter *painter, const QStyleOptionViewItem &given, 
 void FieldDelegate::paintGroup(QPainter *painter, const QStyleOptionViewItem &option, const QModelIndex &index) const
 {
     QRect rect = option.rect.adjusted(CellMargin, 0, -CellMargin, 0);
-    QFont bold = option.font;
-    bold.setBold(true);
     painter->save();
-    painter->setFont(bold);
+    painter->setFont(boldened(option.font));
     painter->setPen(colors(option.palette).dimmed);
     takeLeft(painter, rect, index.data().toString());
     painter->setFont(option.font);

@@ -44,9 +44,7 @@ HelpPanel::HelpPanel(QWidget *parent)
     , m_fold(new QToolButton(this))
 {
     setObjectName(QStringLiteral("helpPanel"));
-    QFont bold = font();
-    bold.setBold(true);
-    m_name->setFont(bold);
+    m_name->setFont(boldened(font()));
     for (QLabel *label : {m_name, m_facts})
         label->setTextFormat(Qt::PlainText);
     m_facts->setForegroundRole(QPalette::PlaceholderText);
