@@ -61,6 +61,16 @@ class TestPlotCursors : public QObject
     Q_OBJECT
 
 private slots:
+    void aDoubleClickMovesNoCursor()
+    {
+        RampBench bench;
+        bench.area.setCursorsOn(true);
+        const PlotCursors before = bench.area.cursors();
+        QTest::mouseDClick(&bench.chart(), Qt::LeftButton, {}, bench.at(0.2));
+        QVERIFY(bench.area.timeWindow().isLive());
+        QVERIFY(bench.area.cursors() == before);
+    }
+
     /// Two panels in a column as narrow as that of the window: charts, not lists and figures.
     void chartsKeepTheirHeight()
     {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/uitest.h"
 #include "tests/ui/plotfixture.h"
+#include "tests/ui/traces.h"
 #include "ui/plot/csvsave.h"
+#include "ui/plot/plotdrawing.h"
 #include "ui/plot/plotlayouts.h"
 #include "ui/plot/plotstate.h"
+#include "ui/plot/tracepaths.h"
 
 #include <QBuffer>
 #include <QFileDialog>
 #include <QMenu>
+#include <QPainter>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -142,7 +146,7 @@ private slots:
         bench.sample(position, 1s, 1024);
         QSignalSpy messages(&bench.area, &PlotArea::posted);
         const QString path = save(bench, QStringLiteral("Save plots as a picture…"), QStringLiteral("plot.png"));
-        QCOMPARE(QImage(path).size(), bench.area.panels().front()->size() * bench.area.devicePixelRatio());
+        QCOMPARE(QImage(path).size(), PlotDrawing(bench.area.panels()).size() * bench.area.devicePixelRatio());
         QCOMPARE(textOf(messages.value(0)), QStringLiteral("Saved %1").arg(path));
     }
 
@@ -319,6 +323,55 @@ private slots:
         QVERIFY(svg.contains(QStringLiteral("Present Position")));
         QVERIFY(svg.contains(bench.chart().traces().front().color.name(), Qt::CaseInsensitive)); // a path of its own
         QVERIFY2(svg.size() < 400'000, qPrintable(QString::number(svg.size()))); // columns, not samples
+    }
+
+    /// All traces by name, however few the list has room for; figures where there are cursors; nothing to click.
+    void aPictureNamesAllTraces()
+    {
+        PlotBench bench;
+        const QSize empty = PlotDrawing(bench.area.panels()).size();
+        QCOMPARE(empty, bench.chart().size());
+        for (const char *field : {"Present Position", "Present Velocity", "Present Current", "Present PWM", "Goal Position", "Goal PWM"})
+            bench.area.addTrace(bench.watch(bench.first, field));
+        bench.area.resize(350, 500);
+        const QSize named = PlotDrawing(bench.area.panels()).size();
+        QVERIFY(named.height() > bench.chart().height() + 6 * bench.area.fontMetrics().height());
+        const QString path = save(bench, QStringLiteral("Save plots as SVG…"), QStringLiteral("names.svg"));
+        const QString svg = contentOf(path);
+        for (const char *field : {"Present Position", "Goal PWM"})
+            QCOMPARE(svg.count(QString::fromLatin1(field)), 1);
+        bench.area.setLive(false);
+        QVERIFY(!contentOf(save(bench, QStringLiteral("Save plots as SVG…"), QStringLiteral("paused.svg"))).contains(QStringLiteral("live")));
+        bench.area.setCursorsOn(true);
+        QTRY_VERIFY(contentOf(save(bench, QStringLiteral("Save plots as SVG…"), QStringLiteral("figures.svg"))).contains(QStringLiteral("RMS")));
+    }
+
+    /// A drawing knows no clipping.
+    void linesEndAtTheEdges()
+    {
+        History history;
+        for (int i = 0; i < 400; ++i)
+            history.append(10ms * i, i % 2 == 0 ? -1000 : 1000);
+        std::vector traces{traceOf(history, QStringLiteral("°"))};
+        PlotScales scales;
+        scales.setTraces(traces);
+        scales.setRange(QStringLiteral("°"), -100, 100);
+        QImage image(200, 200, QImage::Format_ARGB32);
+        image.fill(Qt::white);
+        const QRectF area(20, 60, 160, 80);
+        {
+            QPainter painter(&image);
+            paintPaths(painter, traces, scales, TimeView{40ms, 0, 100, {}}, area);
+        }
+        bool isAnything = false;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                const bool isInk = image.pixel(x, y) != qRgb(255, 255, 255);
+                isAnything = isAnything || isInk;
+                QVERIFY2(!isInk || area.adjusted(-2, -2, 2, 2).contains(x, y), qPrintable(QStringLiteral("%1, %2").arg(x).arg(y)));
+            }
+        }
+        QVERIFY(isAnything);
     }
 
     void whatWaitsForAClosedPanelGoesWithIt()

@@ -22,8 +22,7 @@ MeasureModel::MeasureModel(QObject *parent) : QAbstractTableModel(parent) { }
 
 void MeasureModel::describe(Row &row, const TraceData &trace, const PlotCursors &cursors, LineTime zero) const
 {
-    // The field first: cut short in the middle it keeps the device's number, which stands last.
-    row.label = trace.device.isEmpty() ? trace.field : QStringLiteral("%1 · %2").arg(trace.field, trace.device);
+    row.label = trace.shortLabel();
     row.unit = trace.unit;
     row.color = trace.color;
     row.scale = trace.scale;

@@ -43,7 +43,7 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, c
     , m_bar(new PlotBar(this))
     , m_splitter(new QSplitter(Qt::Vertical, this))
     , m_trigger(std::make_unique<AreaTrigger>(*m_events, monitor, m_panels, m_window, *this))
-    , m_saver(std::make_unique<PlotSaver>(monitor, m_panels, *m_splitter, *this))
+    , m_saver(std::make_unique<PlotSaver>(monitor, m_panels, *this))
 {
     auto *layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
@@ -313,7 +313,7 @@ void PlotArea::refreshAll()
         room = room.unitedWith(panel->chart().labelColumns());
     }
     for (PlotPanel *panel : m_panels)
-        panel->chart().setLabelRoom(room);
+        panel->setLabelRoom(room);
     showNewest();
 }
 

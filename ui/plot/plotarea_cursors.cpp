@@ -46,9 +46,10 @@ void PlotArea::showCursors()
 /// A bounded part of it with each frame, until all is known.
 void PlotArea::measure()
 {
-    std::size_t budget = MeasuredAFrame;
-    for (PlotPanel *panel : m_panels)
+    for (PlotPanel *panel : m_panels) {
+        std::size_t budget = MeasuredAFrame / m_panels.size(); // its own: a long stretch above leaves nobody waiting below
         panel->measure(m_cursors, budget);
+    }
 }
 
 } // namespace dynascope

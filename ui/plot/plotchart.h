@@ -107,7 +107,7 @@ private:
     bool m_isVector = false, m_marked = false, m_showFocus = false; ///< the focus came by key
     PlotCursors m_cursors;
     TriggerMark m_trigger;
-    std::optional<LineTime> m_playhead;
+    std::optional<LineTime> m_playhead, m_cursorBefore; ///< the latter: where a click has just moved it from
     PlotMarks m_marks;
     std::optional<QPointF> m_mouse;
     Drag m_drag = Drag::None;

@@ -11,6 +11,7 @@
 #include <QWheelEvent>
 
 #include <cmath>
+#include <utility>
 
 namespace dynascope {
 
@@ -215,12 +216,15 @@ void PlotChart::mouseReleaseEvent(QMouseEvent *event)
         return;
     const Drag drag = m_drag;
     m_drag = Drag::None;
+    m_cursorBefore.reset();
     if (drag == Drag::Level && m_wasMoved)
         emit triggerLevelChosen(m_trigger.level);
     else if (drag == Drag::Box)
         zoomToBox(QRectF(m_dragFrom, event->position()).normalized().intersected(plotArea()));
-    else if (drag == Drag::Pan && !m_wasMoved && m_cursors.isOn && event->button() == Qt::LeftButton)
+    else if (drag == Drag::Pan && !m_wasMoved && m_cursors.isOn && event->button() == Qt::LeftButton) {
+        m_cursorBefore = m_cursors.at[static_cast<std::size_t>(m_cursors.active)];
         placeCursor(m_cursors.active, event->position());
+    }
     showDragShape(event->position(), event->modifiers());
     update();
 }
@@ -252,6 +256,9 @@ void PlotChart::mouseDoubleClickEvent(QMouseEvent *event)
         scale->isByHand = false;
         scale->scaler.refit();
     }
+    m_drag = Drag::None;
+    if (m_cursorBefore) // the first click was none for a cursor
+        emit cursorMoved(m_cursors.active, *std::exchange(m_cursorBefore, {}));
     if (axis < 0)
         emit fitRequested();
     else

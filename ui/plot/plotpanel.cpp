@@ -139,6 +139,12 @@ void PlotPanel::setOwnTime(bool own)
     m_chart->setWindow(own ? m_ownTime : m_sharedTime);
 }
 
+void PlotPanel::setLabelRoom(LabelColumns room)
+{
+    m_chart->setLabelRoom(room);
+    placeButtons();
+}
+
 void PlotPanel::setCursors(const PlotCursors &cursors)
 {
     m_chart->setCursors(cursors);
@@ -157,6 +163,11 @@ void PlotPanel::setNewest(LineTime newest)
 {
     m_chart->setNewest(newest);
     m_isMeasured = false;
+}
+
+const MeasureModel *PlotPanel::figures() const
+{
+    return m_table->isHidden() ? nullptr : m_figures;
 }
 
 void PlotPanel::showFigures()

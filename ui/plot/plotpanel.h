@@ -14,6 +14,7 @@ class QToolButton;
 namespace dynascope {
 
 class EventLog;
+struct LabelColumns;
 class MeasureModel;
 class MeasureTable;
 class PlotChart;
@@ -41,6 +42,7 @@ public:
 
     TraceModel &model() const { return *m_model; }
     PlotChart &chart() const { return *m_chart; }
+    const MeasureModel *figures() const; ///< between the cursors, while these are on
     void setClosable(bool closable);
     void setLive(bool live); ///< else it offers the way back
 
@@ -49,6 +51,7 @@ public:
     void setOwnTime(bool own);
     TimeWindow &ownTime() { return m_ownTime; }
 
+    void setLabelRoom(LabelColumns room); ///< see PlotChart
     void setCursors(const PlotCursors &cursors);
     /// See MeasureModel. Nothing to do without cursors.
     void measure(const PlotCursors &cursors, std::size_t &budget);

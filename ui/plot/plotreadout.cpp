@@ -75,7 +75,7 @@ void PlotReadout::paint(QPainter &painter) const
     qreal units = 0;
     for (const Row &row : rows) {
         names = std::max(
-            names, std::min<qreal>(text.horizontalAdvance(row.trace->label()), std::min(240.0, area.width() * 0.4)));
+            names, std::min<qreal>(text.horizontalAdvance(row.trace->shortLabel()), std::min(240.0, area.width() * 0.4)));
         values = std::max(values, digits.horizontalAdvance(withMinus(QString::number(row.value, 'f', row.trace->decimals))));
         units = std::max(units, text.horizontalAdvance(row.trace->unit));
     }
@@ -99,7 +99,7 @@ void PlotReadout::paint(QPainter &painter) const
         painter.setPen(palette.color(QPalette::ToolTipText));
         const QRectF name(slot.left() + Swatch + ReadoutPadding, slot.top(), names, line);
         painter.drawText(
-            name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->label(), Qt::ElideMiddle, names + 1));
+            name, Qt::AlignVCenter | Qt::AlignLeft, text.elidedText(row.trace->shortLabel(), Qt::ElideMiddle, names + 1));
         const QFont font = painter.font();
         painter.setFont(numbers);
         painter.drawText(QRectF(slot.left(), slot.top(), slot.width() - units - ReadoutPadding / 2, line),

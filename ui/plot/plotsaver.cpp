@@ -3,6 +3,7 @@
 
 #include "ui/common/filedialogs.h"
 #include "ui/plot/plotchart.h"
+#include "ui/plot/plotdrawing.h"
 #include "ui/plot/plotpanel.h"
 #include "ui/plot/tracemodel.h"
 
@@ -10,7 +11,6 @@
 #include <QDir>
 #include <QPainter>
 #include <QPointer>
-#include <QSplitter>
 #include <QSvgGenerator>
 
 namespace dynascope {
@@ -24,10 +24,8 @@ const QString Topic = QStringLiteral("save");
 
 } // namespace
 
-PlotSaver::PlotSaver(
-    const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget &window)
+PlotSaver::PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QWidget &window)
     : m_panels(panels)
-    , m_splitter(splitter)
     , m_window(window)
     , m_csv(monitor)
 {
@@ -70,9 +68,17 @@ void PlotSaver::saveCsv(const PlotPanel &timed)
     });
 }
 
+/// As sharp as on the screen.
 void PlotSaver::savePicture()
 {
-    ask(tr("Save the plots as a picture"), QStringLiteral("png"), [this, picture = m_splitter.grab()](const QString &path) {
+    const PlotDrawing drawing(m_panels);
+    QPixmap picture(drawing.size() * m_window.devicePixelRatioF());
+    picture.setDevicePixelRatio(m_window.devicePixelRatioF());
+    if (!picture.isNull()) {
+        QPainter painter(&picture);
+        drawing.paint(painter);
+    }
+    ask(tr("Save the plots as a picture"), QStringLiteral("png"), [this, picture](const QString &path) {
         if (const Result<void> result = dynascope::savePicture(path, picture))
             sayWritten(path);
         else
@@ -82,24 +88,25 @@ void PlotSaver::savePicture()
 
 void PlotSaver::saveDrawing()
 {
-    QByteArray drawing;
-    QBuffer buffer(&drawing);
+    const PlotDrawing drawing(m_panels);
+    QByteArray svg;
+    QBuffer buffer(&svg);
     QSvgGenerator generator;
     generator.setOutputDevice(&buffer);
-    generator.setSize(m_splitter.size());
-    generator.setViewBox(m_splitter.rect());
+    generator.setSize(drawing.size());
+    generator.setViewBox(QRect(QPoint(), drawing.size()));
     generator.setResolution(96);
     generator.setTitle(tr("Dynascope plots"));
     for (PlotPanel *panel : m_panels)
         panel->chart().setVector(true);
     {
         QPainter painter(&generator);
-        m_splitter.render(&painter);
+        drawing.paint(painter);
     }
     for (PlotPanel *panel : m_panels)
         panel->chart().setVector(false);
-    ask(tr("Save the plots as a drawing"), QStringLiteral("svg"), [this, drawing](const QString &path) {
-        if (const Result<void> result = saveBytes(path, drawing))
+    ask(tr("Save the plots as a drawing"), QStringLiteral("svg"), [this, svg](const QString &path) {
+        if (const Result<void> result = saveBytes(path, svg))
             sayWritten(path);
         else
             sayFailed(result.error());

@@ -4,8 +4,6 @@
 #include "ui/common/messagebar.h"
 #include "ui/plot/csvsave.h"
 
-class QSplitter;
-
 namespace dynascope {
 
 class PlotPanel;
@@ -17,8 +15,8 @@ class PlotSaver : public QObject
     Q_OBJECT
 
 public:
-    /// `splitter` has the panels in it, dialogs belong to `window`. All outlive this.
-    PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QSplitter &splitter, QWidget &window);
+    /// Dialogs belong to `window`. All outlive this.
+    PlotSaver(const Monitor &monitor, const std::vector<PlotPanel *> &panels, QWidget &window);
 
     void saveCsv(const PlotPanel &timed); ///< all samples in its view, of all panels. Refused while another is written
     void savePicture();
@@ -35,7 +33,6 @@ private:
     void sayItLasts();
 
     const std::vector<PlotPanel *> &m_panels;
-    QSplitter &m_splitter;
     QWidget &m_window;
     CsvSave m_csv;
     QTimer m_patience; ///< what is done at once needs no word before

@@ -15,6 +15,7 @@ target_sources(dynascope_ui PRIVATE
     plot/plotchart.cpp plot/plotchart.h
     plot/plotchart_input.cpp
     plot/plotcursors.cpp plot/plotcursors.h
+    plot/plotdrawing.cpp plot/plotdrawing.h
     plot/plotexport.cpp plot/plotexport.h
     plot/plotlayouts.cpp plot/plotlayouts.h
     plot/plotmarks.cpp plot/plotmarks.h

@@ -23,6 +23,8 @@ struct TraceData {
     bool dimmed = false; ///< its device is gone
 
     QString label() const { return device.isEmpty() ? field : device + QStringLiteral(" · ") + field; }
+    /// "Present Position #1": the field first, and of the device what tells it from others of its model.
+    QString shortLabel() const { return device.isEmpty() ? field : field + u' ' + device.mid(std::max<qsizetype>(0, device.lastIndexOf(u'#'))); }
     double value(std::int32_t raw) const { return raw * scale + offset; }
     bool isDrawn() const { return visible && history && !history->isEmpty(); }
 };

@@ -98,14 +98,13 @@ void TraceList::addDerivedActions(QMenu &menu)
         if (key && std::ranges::find(differences, *key) == differences.end())
             differences.push_back(*key);
     }
-    if (!differences.empty()) {
-        QAction *action = menu.addAction(tr("Add &Goal − Present"));
-        action->setToolTip(tr("How far each joint is from its goal"));
-        connect(action, &QAction::triggered, this, [this, differences] {
-            for (const TraceKey &key : differences)
-                emit deriveRequested(key);
-        });
-    }
+    QAction *goals = menu.addAction(tr("Add &Goal − Present"));
+    goals->setToolTip(tr("How far each joint is from its goal"));
+    goals->setEnabled(!differences.empty()); // never gone: what is below it stays where it is
+    connect(goals, &QAction::triggered, this, [this, differences] {
+        for (const TraceKey &key : differences)
+            emit deriveRequested(key);
+    });
     QAction *ask = menu.addAction(tr("Add &derived trace…"));
     ask->setEnabled(!m_model.watches().empty());
     connect(ask, &QAction::triggered, this, &TraceList::askForDerived);

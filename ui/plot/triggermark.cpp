@@ -28,8 +28,11 @@ void TriggerMark::paint(QPainter &painter, const TimeView &view, const QRectF &a
         if (x >= area.left() && x <= area.right())
             painter.drawLine(QPointF(x, area.top()), QPointF(x, area.bottom()));
     }
+    if (text.isEmpty())
+        return;
     const QFontMetricsF metrics(painter.font());
-    const QString said = metrics.elidedText(text, Qt::ElideRight, std::max(40.0, area.width() - 160));
+    const qreal button = isShown ? 160 : 16; // the way back to live stands beside it then
+    const QString said = metrics.elidedText(text, Qt::ElideRight, std::max(40.0, area.width() - button));
     const QRectF box(area.left() + 4, area.top() + PlotMarks::Size + 4, metrics.horizontalAdvance(said) + 8,
                      metrics.height() + 2);
     painter.fillRect(box, palette.color(QPalette::Base));
