@@ -8,6 +8,7 @@
 #include "ui/plot/tracemodel.h"
 
 #include <QMenu>
+#include <QScrollArea>
 #include <QSplitter>
 #include <QVBoxLayout>
 
@@ -49,7 +50,13 @@ PlotArea::PlotArea(Session &session, Monitor &monitor, const Journal *journal, c
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(m_bar);
-    layout->addWidget(m_splitter, 1);
+    auto *scrolled = new QScrollArea(this); // where there are more panels than a low window can show
+    scrolled->setFrameShape(QFrame::NoFrame);
+    scrolled->setWidgetResizable(true);
+    scrolled->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    scrolled->setFocusPolicy(Qt::NoFocus);
+    scrolled->setWidget(m_splitter);
+    layout->addWidget(scrolled, 1);
     m_splitter->setChildrenCollapsible(false);
     m_frames.setInterval(FrameInterval);
     m_frames.setTimerType(Qt::PreciseTimer);

@@ -26,7 +26,7 @@ struct Legend {
 
     explicit Legend(const PlotPanel &panel)
     {
-        if (const MeasureModel *figures = panel.figures()) {
+        if (const MeasureModel *figures = panel.figures(); figures && figures->rowCount() > 0) {
             Row header;
             for (int column = 0; column < figures->columnCount(); ++column)
                 header.texts << figures->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
