@@ -48,7 +48,7 @@ public:
     TimeView view() const;
     QRectF plotArea() const;
     QSize sizeHint() const override { return {480, 240}; }
-    QSize minimumSizeHint() const override { return {160, 128}; }
+    QSize minimumSizeHint() const override { return {160, 96}; }
 
 signals:
     void spanStepped(int steps);                            ///< live: the wheel; positive is longer
