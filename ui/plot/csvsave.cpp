@@ -14,7 +14,7 @@ constexpr std::size_t SliceSamples = 100'000; ///< some 10 ns each
 CsvColumn columnOf(const TraceData &look)
 {
     CsvColumn column;
-    column.title = look.unit.isEmpty() ? look.label() : QStringLiteral("%1 (%2)").arg(look.label(), look.unit);
+    column.title = withUnit(look.label(), look.unit);
     column.scale = look.scale;
     column.offset = look.offset;
     column.decimals = look.decimals;

@@ -73,7 +73,7 @@ std::array<QString, MeasureModel::ColumnCount> MeasureModel::textsOf(const Row &
 {
     std::array<QString, ColumnCount> texts;
     texts.fill(QStringLiteral("–"));
-    texts[Name] = row.unit.isEmpty() ? row.label : QStringLiteral("%1 (%2)").arg(row.label, row.unit);
+    texts[Name] = withUnit(row.label, row.unit);
     for (std::size_t i = 0; i < 2; ++i) {
         if (row.ends[i])
             texts[AtA + i] = numberText(*row.ends[i], row.decimals);

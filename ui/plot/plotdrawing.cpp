@@ -41,7 +41,7 @@ struct Legend {
         }
         for (const TraceData &trace : panel.chart().traces()) {
             if (trace.visible)
-                rows.push_back({trace.color, {trace.unit.isEmpty() ? trace.label() : QStringLiteral("%1 (%2)").arg(trace.label(), trace.unit)}});
+                rows.push_back({trace.color, {withUnit(trace.label(), trace.unit)}});
         }
     }
 

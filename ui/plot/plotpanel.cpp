@@ -112,7 +112,7 @@ void PlotPanel::fillMenu()
 
 void PlotPanel::placeButtons()
 {
-    const QRect area = m_chart->plotArea().toRect();
+    const QRect area = m_placedIn = m_chart->plotArea().toRect();
     m_more->adjustSize();
     m_more->move(area.right() + 1 - m_more->width(), std::max(0, (area.top() - m_more->height()) / 2));
     m_toLive->adjustSize();
@@ -142,7 +142,8 @@ void PlotPanel::setOwnTime(bool own)
 void PlotPanel::setLabelRoom(LabelColumns room)
 {
     m_chart->setLabelRoom(room);
-    placeButtons();
+    if (m_chart->plotArea().toRect() != m_placedIn) // each live frame comes here
+        placeButtons();
 }
 
 void PlotPanel::setCursors(const PlotCursors &cursors)

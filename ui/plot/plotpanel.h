@@ -94,6 +94,7 @@ private:
     const EventLog &m_events;
     const TimeWindow &m_sharedTime;
     TimeWindow m_ownTime;
+    QRect m_placedIn; ///< the plot's area when its buttons were placed
     bool m_hasOwnTime = false;
     bool m_isClosable = false;
     bool m_isMeasured = false; ///< all of what stands between the cursors now

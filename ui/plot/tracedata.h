@@ -8,6 +8,12 @@
 
 namespace dynascope {
 
+/// "Present Position (°)"
+inline QString withUnit(const QString &name, const QString &unit)
+{
+    return unit.isEmpty() ? name : QStringLiteral("%1 (%2)").arg(name, unit);
+}
+
 /// All that drawing one trace needs; made anew whenever something of it changes. Knows no device, so that anything with
 /// a History can be drawn.
 struct TraceData {

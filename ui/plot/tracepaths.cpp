@@ -33,8 +33,9 @@ public:
         const QPointF begin = inside(from, to);
         if (!m_isPenDown || begin != from)
             path.moveTo(begin);
-        path.lineTo(inside(to, from));
-        m_isPenDown = inside(to, from) == to;
+        const QPointF end = inside(to, from);
+        path.lineTo(end);
+        m_isPenDown = end == to;
     }
 
     QPainterPath path;
