@@ -249,8 +249,8 @@ Result<void> Bus::prepare()
     if (!m_unsettled)
         return {};
     const LineTime quiet = timing::silence(m_channel.line());
-    const LineTime sofar = m_channel.quietFor();
-    if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit, Channel::Heed::Orders);
+    const LineTime sofar = std::max(LineTime(), m_channel.now() - m_channel.busyUntil());
+    if (Result<void> settled = m_channel.settle(quiet - std::min(quiet, sofar), SettleLimit);
         !settled)
         return settled;
     m_unsettled = false;
@@ -308,7 +308,7 @@ Result<void> Bus::letEnd(LineTime pause, LineTime limit)
         if (!received)
             return tl::unexpected(received.error());
         m_channel.countDiscarded(received->size());
-        until = std::max(m_channel.lastByteAt(), m_channel.sentBy()) + pause;
+        until = m_channel.busyUntil() + pause;
         if (!m_channel.isAnswered())
             until = std::max(until, m_answerEnd + pause);
     } while (m_channel.now() < std::min(until, end));

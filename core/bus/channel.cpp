@@ -61,12 +61,12 @@ Result<void> Channel::waitUntil(LineTime time, Heed heed)
     return {};
 }
 
-Result<void> Channel::settle(LineTime quiet, LineTime limit, Heed heed)
+Result<void> Channel::settle(LineTime quiet, LineTime limit)
 {
     const LineTime end = m_line.now() + limit;
     LineTime silentSince = m_line.now();
     while (m_line.now() < end && m_line.now() - silentSince < quiet) {
-        if (Result<void> may = heed == Heed::Orders ? mayWait() : Result<void>(); !may)
+        if (Result<void> may = mayWait(); !may)
             return may;
         const Result<ByteView> received =
             receive(std::min({end, silentSince + quiet, m_line.now() + timing::Slice}));

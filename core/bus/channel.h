@@ -30,8 +30,7 @@ public:
     Result<LineTime> send(ByteView packet);
     LineTime sentBy() const { return m_sentBy; } ///< when the last byte of the last packet has left
     LineTime lastByteAt() const { return m_lastByteAt; } ///< when something came last
-    /// How long nothing has come or gone, as far as was looked.
-    LineTime quietFor() const { return std::max(LineTime(), m_line.now() - std::max(m_lastByteAt, m_sentBy)); }
+    LineTime busyUntil() const { return std::max(m_lastByteAt, m_sentBy); } ///< since then nothing has come or gone
     void noteAnswered() { m_isAnswered = true; } ///< what was sent last, so that it has left
     bool isAnswered() const { return m_isAnswered; }
     ByteView lastSent() const { return m_lastSent; }
@@ -42,8 +41,8 @@ public:
     enum class Heed { Orders, Nothing }; ///< orders: STOP and cancel
     /// What comes meanwhile is discarded.
     Result<void> waitUntil(LineTime time, Heed heed);
-    /// Waits until nothing has come for `quiet`, at most for `limit`, and discards what did.
-    Result<void> settle(LineTime quiet, LineTime limit, Heed heed);
+    /// Waits until nothing has come for `quiet`, at most for `limit`, and discards what did. Heeds orders.
+    Result<void> settle(LineTime quiet, LineTime limit);
     /// Drain, set, discard, two byte times. Error: the old rate stays.
     Result<void> setBaudRate(int bitsPerSecond);
 
